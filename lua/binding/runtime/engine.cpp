@@ -208,7 +208,7 @@ std::string Engine::model_summary() const {
     out += "model " + std::to_string(number) + ": " + session.notes[i]->built + "\n";
     for (const std::string& line : session.notes[i]->process_zones)
       out += "  " + line + "\n";
-    for (const std::string& line : session.notes[i]->deforming)
+    for (const std::string& line : session.notes[i]->advice)
       out += "  " + line + "\n";
     for (const std::string& line : session.notes[i]->apart)
       out += "  " + line + "\n";

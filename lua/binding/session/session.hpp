@@ -29,7 +29,7 @@ struct ModelNotes {
   std::string built;                      // bodies, blocks, tets, bonds, size
   std::vector<std::string> process_zones; // one line each
   std::vector<std::string> conditions;    // one line each
-  std::vector<std::string> deforming;     // units that deform and need not, one line a body
+  std::vector<std::string> advice;        // what is hardly meant, or takes long, one line each
   std::vector<std::string> apart;  // contacts without an interface when the model was made, one line each
   std::vector<std::string> at_end; // warnings after the last solving call, for when the script has ended
 };
