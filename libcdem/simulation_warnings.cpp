@@ -229,7 +229,7 @@ void Simulation::Impl::warn_of_dry_rock(const InitialStress& field) {
 // Faces between rock with and without initial stress carry half of it (load/initial_stress.cpp): a place between layers that
 // are given one by one was left out.
 void Simulation::Impl::warn_of_unstressed_rock() {
-  if (replaying || stage > 0)
+  if (replaying || stage > 0 || model.interfaces.empty())
     return;
   const State& state = whole();
   std::vector<char> stressed(model.blocks.size(), 0);

@@ -106,6 +106,7 @@ std::vector<ChartMark> marks_of_stages(const Session& session, const ModelObject
     if (stage == session.stages.end())
       break;
     marks.push_back({row.time, std::to_string(stage->number) + " " + stage->kind});
+    std::replace(marks.back().name.begin(), marks.back().name.end(), '_', ' ');
     ++stage;
   }
   return marks;
