@@ -226,7 +226,6 @@ WaterInJoints Simulation::water(const Water& water) {
     sum = set_water(s.model, changed, water);
     s.whole() = std::move(changed);
     s.warn_of_distant_table(water.table);
-    s.warn_of_open_water(water);
   }
   std::vector<StillWater>& still = s.conditions.still_waters;
   const bool everywhere = water.sets.empty() && selects_same(water.on, Selection::everything());
@@ -234,8 +233,10 @@ WaterInJoints Simulation::water(const Water& water) {
     return everywhere || (other.sets == water.sets && selects_same(other.on, water.on));
   };
   still.erase(std::remove_if(still.begin(), still.end(), replaced), still.end());
-  if (water.level || water.table)
+  if (water.level || water.table) {
     still.push_back({water.on, water.sets, water.level, water.table});
+    s.warn_of_open_water(still.back());
+  }
   return sum;
 }
 
@@ -354,38 +355,6 @@ void sample_every(const StageContext& context, std::int64_t steps) {
 }
 
 } // namespace
-
-void Simulation::check_stage() {
-  impl_->warn_before_stage();
-}
-
-void Simulation::check_run(double begin, double end) {
-  constexpr int times = 11;
-  const Conditions& c = impl_->conditions;
-  const auto ask = [&](const auto& function) {
-    for (int t = 0; function && t < times; ++t)
-      function(begin + (end - begin) * t / (times - 1));
-  };
-  for (const Fix& fix : c.fixes)
-    ask(fix.amplitude);
-  for (const Traction& traction : c.tractions)
-    ask(traction.amplitude);
-  for (const PointForce& force : c.forces)
-    ask(force.amplitude);
-  for (const Quiet& quiet : c.quiets)
-    ask(quiet.amplitude);
-  for (const Flow& flow : c.flows)
-    ask(flow.velocity);
-  for (const CrackPressure& pressure : c.crack_pressures) {
-    ask(pressure.pressure);
-    ask(pressure.volume);
-  }
-  if (c.gravity) {
-    ask(c.gravity->amplitude);
-    ask(c.gravity->turning);
-  }
-  impl_->look_for_dry_flows(begin, end);
-}
 
 RelaxResult Simulation::relax(const RelaxOptions& options) {
   check(options);

@@ -177,8 +177,9 @@ public:
   double residual() const;                          // out-of-balance force norm over applied force norm
   Unbalance unbalance(std::optional<double> reference = {}) const; // results/unbalance.hpp
   double stable_time_step() const;                                 // s
-  int stage() const;                                               // solving calls so far
-  std::int64_t steps() const;                                      // steps of all stages
+  double rigid_time_step(const std::string& body) const; // s, that its units would take as rigid bodies
+  int stage() const;                                     // solving calls so far
+  std::int64_t steps() const;                            // steps of all stages
   EnergyLedger energy() const;
   ImpossibleEnergy impossible_energy(const EnergyLedger& now) const; // now: energy()
   std::uint64_t state_hash() const;                                  // of every State field, bit for bit
@@ -242,6 +243,8 @@ public:
   std::vector<JointSum> joints(const JointChoice&) const;
   std::vector<std::pair<std::string, JointPoint>> joint_points(const JointChoice&) const;
   Snapshot joint_surface(const JointChoice&, const std::string& title) const;
+  Snapshot joint_picture(const JointChoice&,
+                         const std::string& title) const; // with the outline of the bodies
 
   // Cracks: area and energy, tip and speed along a path, the surface, the energy release rate.
   CracksByBody cracks() const;

@@ -1,5 +1,6 @@
 // A Simulation's answers on its cracks, joints and pieces.
 #include "libcdem/results/crack_surface.hpp"
+#include "libcdem/results/drawn_surface.hpp"
 #include "libcdem/simulation_impl.hpp"
 
 namespace cdem {
@@ -35,6 +36,12 @@ std::vector<std::pair<std::string, JointPoint>> Simulation::joint_points(const J
 
 Snapshot Simulation::joint_surface(const JointChoice& choice, const std::string& title) const {
   return cdem::joint_surface(impl_->model, impl_->whole(), choice, title);
+}
+
+Snapshot Simulation::joint_picture(const JointChoice& choice, const std::string& title) const {
+  Snapshot snapshot = joint_surface(choice, title);
+  add_outline(impl_->model, impl_->whole(), snapshot);
+  return snapshot;
 }
 
 JIntegral Simulation::j_integral(const std::string& body, JFront front,

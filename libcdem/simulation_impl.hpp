@@ -46,7 +46,8 @@ struct Simulation::Impl {
   void warn_of_lost_probes();
   void warn_of_dry_rock(const InitialStress&);
   void warn_of_distant_table(const std::shared_ptr<const WaterTable>&);
-  void warn_of_open_water(const Water&);
+  void warn_of_open_water(const StillWater&);
+  void warn_of_unstressed_rock();
   // Flows of water that has reached no face in any run so far; and those that have.
   struct FlowKey {
     const WaterField* water;
@@ -61,6 +62,7 @@ struct Simulation::Impl {
   std::vector<DryFlow> dry_flows;
   std::vector<FlowKey> wet_flows;
   void look_for_dry_flows(double begin, double end);
+  std::optional<geom::Vec3> lowest_place(const Selection& outer_faces) const; // m; none on none
   void warn_of_falling_forces();
 
   // All ranks call it together.

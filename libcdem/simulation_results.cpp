@@ -2,7 +2,9 @@
 #include "libcdem/simulation_impl.hpp"
 #include "libcdem/step/support_forces.hpp"
 
+#include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/model/build/rigid_bodies.hpp"
 #include "libcdem/model/known_of_model.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/model/unit_order.hpp"
@@ -15,6 +17,7 @@
 #include "libcdem/step/forces.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace cdem {
 
@@ -92,6 +95,15 @@ double Simulation::residual() const {
 }
 double Simulation::stable_time_step() const {
   return cdem::stable_time_step(impl_->model);
+}
+double Simulation::rigid_time_step(const std::string& body) const {
+  const Model& model = impl_->model;
+  if (model.surface.empty())
+    return std::numeric_limits<double>::infinity();
+  std::vector<RigidBody> units;
+  for (const int block : units_of_body(model, body))
+    units.push_back(rigid_shape(model, block).body);
+  return cdem::rigid_time_step(model, units, 1);
 }
 int Simulation::stage() const {
   return impl_->stage;

@@ -271,6 +271,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       options.callback();
       view.require_same_looks();
     }
+    look(stage, options.looks, state.time, state.time);
   };
   {
     const AtRest at_rest{stage, state, context.last_good, report.sums};

@@ -265,6 +265,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
         [&](int rigid) { place_rigid(context.model, state, rigid, angle[rigid], stepping.time_step); });
     stage.end_step(stepping.time_step);
     report.residual = relative_residual(report.sums);
+    const double before = state.time;
     state.time = clock.time_at(stage.step);
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.watch(report);
@@ -282,6 +283,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       }
       stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
     }
+    look(stage, options.looks, before, state.time);
   }
   if (!scaled.on())
     stage.drop_water();

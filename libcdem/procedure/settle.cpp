@@ -168,6 +168,7 @@ void Settling::phase(const std::string& name, double time_step, Until until) {
     if (looks_per_call > 0 && now_.looks % looks_per_call == 0)
       options_.callback();
   };
+  stepping.looks = options_.looks;
   stepping.stop = [&] {
     make_whole(state_);
     return until == Until::touch ? !state_.contacts.empty() : now_.calm.quiet >= quiet_looks;

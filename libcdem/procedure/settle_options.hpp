@@ -1,6 +1,8 @@
 // What settling takes and gives back.
 #pragma once
 
+#include "libcdem/step/timed_look.hpp"
+
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -20,6 +22,7 @@ struct SettleOptions {
   double time_step = 0; // s, of the rigid phase; 0 = safety x stable
   std::int64_t callback_every = 0; // steps between calls of `callback`, in whole twenties; 0 never
   std::function<void()> callback;
+  std::vector<TimedLook> looks;
 };
 
 struct SettlePhase {

@@ -1,6 +1,7 @@
 #include "libcdem/results/drawn_surface.hpp"
 
 #include "libcdem/joint/bond_mode.hpp"
+#include "libcdem/results/empty_field.hpp"
 
 #include <algorithm>
 #include <map>
@@ -82,14 +83,19 @@ std::set<FacePair> seams(const Model& model) {
   return found;
 }
 
-void add_edges_of_meshes(const Model& model, const std::set<FacePair>& seams, Snapshot& snapshot) {
+using NodeEdges = std::vector<std::array<int, 2>>;
+
+// shown(block): whether its edges are wanted.
+template <class Shown>
+void add_edges_of_meshes(const Model& model, const std::set<FacePair>& seams, const Shown& shown,
+                         NodeEdges& edges) {
   struct Side {
     geom::Vec3 normal;
     int face; // of a zoned block
   };
   std::map<std::array<int, 2>, Side> first_at; // the first triangle that has the edge
   for (const BoundaryTriangle& triangle : model.mesh.boundary) {
-    if (model.blocks[triangle.block].star())
+    if (!shown(model.blocks[triangle.block]))
       continue;
     const auto& x = model.node_position;
     const geom::Vec3 normal = (x[triangle.nodes[1]] - x[triangle.nodes[0]])
@@ -103,7 +109,25 @@ void add_edges_of_meshes(const Model& model, const std::set<FacePair>& seams, Sn
           first_at.emplace(std::array<int, 2>{std::min(a, b), std::max(a, b)}, Side{normal, triangle.face});
       if (!first && (found->second.normal.dot(normal) < flat || found->second.face != triangle.face) &&
           seams.count(pair_of(triangle.block, found->second.face, triangle.face)) == 0)
-        snapshot.block_edges.push_back(ends);
+        edges.push_back(ends);
+    }
+  }
+}
+
+// Of convex blocks: where two faces meet that are not wholly covered, at more than 30 degrees.
+void add_outer_edges(const Model& model, NodeEdges& edges) {
+  std::set<std::array<int, 2>> outer; // block, face
+  for (const OuterFace& face : model.outer_faces)
+    outer.insert({face.block, face.face});
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const Block& block = model.blocks[b];
+    const EdgeFaces faces = faces_at_edges(block.shape);
+    for (const auto& [ends, face] : faces) {
+      const auto beyond = faces.find({ends[1], ends[0]});
+      if (ends[0] < ends[1] && beyond != faces.end() && outer.count({b, face}) > 0 &&
+          outer.count({b, beyond->second}) > 0 &&
+          geom::face_normal(block.shape, face).dot(geom::face_normal(block.shape, beyond->second)) < flat)
+        edges.push_back({block.node_begin + ends[0], block.node_begin + ends[1]});
     }
   }
 }
@@ -160,7 +184,28 @@ void add_edges(const Model& model, Snapshot& snapshot) {
       if (!is_hidden(from, to))
         snapshot.block_edges.push_back({block.node_begin + from, block.node_begin + to});
   }
-  add_edges_of_meshes(model, hidden, snapshot);
+  add_edges_of_meshes(
+      model, hidden, [](const Block& block) { return !block.star(); }, snapshot.block_edges);
+}
+
+void add_outline(const Model& model, const State& state, Snapshot& snapshot) {
+  NodeEdges edges;
+  add_outer_edges(model, edges);
+  add_edges_of_meshes(
+      model, {}, [](const Block& block) { return !block.convex(); }, edges);
+  SnapshotField moved = empty_field("displacement", "m", 3);
+  for (const std::array<int, 2>& ends : edges) {
+    const int first = static_cast<int>(snapshot.points.size());
+    snapshot.outline.push_back({first, first + 1});
+    for (const int node : ends) {
+      snapshot.points.push_back(model.node_position[node]);
+      if (!state.displacement_zero.empty())
+        snapshot.points.back() += vec(state.displacement_zero[node]);
+      const Node u = shown_displacement(state, node);
+      moved.values.insert(moved.values.end(), {u.x, u.y, u.z});
+    }
+  }
+  snapshot.point_fields = {std::move(moved)};
 }
 
 } // namespace cdem

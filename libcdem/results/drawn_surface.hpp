@@ -24,4 +24,8 @@ void each_face_of(const MeshData& mesh, const std::vector<std::int64_t>& faces, 
 void add_surface(const Model&, const std::vector<std::int64_t>& opened, Snapshot&);
 void add_edges(const Model&, Snapshot&);
 
+// Adds the outline of the bodies, with points and displacements of its own: edges between faces that no other block covers,
+// not those at which joints come to the surface.
+void add_outline(const Model&, const State&, Snapshot&);
+
 } // namespace cdem

@@ -45,6 +45,7 @@ struct Snapshot {
   std::vector<geom::Triangle> surface;         // triangles of all block faces, outward
   std::vector<std::int64_t> surface_tet;       // the tet each surface triangle belongs to
   std::vector<std::array<int, 2>> block_edges; // true edges of the blocks, over points (for drawing)
+  std::vector<std::array<int, 2>> outline; // edges of the bodies, over points; where joints are drawn alone
   BondSnapshot bonds;
   std::vector<WaterSheet> water; // of each field that loads the model, over its extent
 };

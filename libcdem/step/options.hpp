@@ -1,12 +1,14 @@
 // What the solving calls take and give back.
 #pragma once
 
+#include "libcdem/step/timed_look.hpp"
 #include "libgeom/core/types.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace cdem {
 
@@ -30,6 +32,7 @@ struct RelaxOptions {
   std::string note;                // what the progress shows of it, "F = 1.25"
   std::int64_t callback_every = 0; // steps between calls of `callback`; 0 never
   std::function<void()> callback;
+  std::vector<TimedLook> looks;
   std::int64_t history_every = 0; // steps between samples of the history from now on; 0: as before
 };
 
@@ -83,6 +86,7 @@ struct RunOptions {
   bool looks_at_all_contacts = false;
   std::int64_t callback_every = 0;
   std::function<void()> callback;
+  std::vector<TimedLook> looks;
   std::int64_t history_every = 0;         // as of a relaxation
   std::function<void(Progress&)> details; // adds to what the progress line shows
   std::function<bool()> stop;             // asked every callback_every (default 100) steps

@@ -69,4 +69,13 @@ SynchronisedView::~SynchronisedView() {
   }
 }
 
+void look(Stage& stage, const std::vector<TimedLook>& looks, double from, double to) {
+  for (const TimedLook& timed : looks)
+    if (timed.due(stage.step, from, to)) {
+      const SynchronisedView view(stage, SynchronisedView::Of::shares);
+      timed.look();
+      view.require_same_looks();
+    }
+}
+
 } // namespace cdem

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "libcdem/step/stage.hpp"
+#include "libcdem/step/timed_look.hpp"
 
 namespace cdem {
 
@@ -24,5 +25,8 @@ private:
   Stage& stage_;
   std::unique_ptr<Kept> kept_; // null: nothing had to be brought up to date
 };
+
+// Those that are due after a step from one time of the model to another, s.
+void look(Stage&, const std::vector<TimedLook>&, double from, double to);
 
 } // namespace cdem

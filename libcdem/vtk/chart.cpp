@@ -17,7 +17,8 @@
 namespace cdem {
 namespace {
 
-constexpr Colour grid_colour = {0.88, 0.88, 0.88}, frame_colour = {0.35, 0.35, 0.35};
+constexpr Colour grid_colour = {0.88, 0.88, 0.88}, frame_colour = {0.35, 0.35, 0.35},
+                 mark_colour = {0.45, 0.45, 0.45};
 constexpr double chart_margin = 36, chart_tick = 10, minor_length = 6, chart_gap = 10, chart_line = 4.5,
                  point_size = 15;
 constexpr double sample_length = 70, sample_gap = 14, entry_gap = 54;
@@ -99,6 +100,7 @@ private:
   void place_plot();
   void draw_axes();
   void draw_vertical_axis(const ChartAxis&, bool right, const std::string& label);
+  void draw_marks();
   void draw_series(std::size_t);
   void draw_run(std::vector<Canvas::Point>& points, const Series&, const Colour&);
   void draw_entry(std::size_t, double x, double y);
@@ -249,6 +251,27 @@ void ChartDrawing::draw_axes() {
     draw_vertical_axis(right_, true, options_.right_label);
 }
 
+void ChartDrawing::draw_marks() {
+  const double font = 0.8 * font_, gap = 0.4 * font;
+  std::vector<std::pair<double, std::string>> shown; // place in pixels, name
+  for (const ChartMark& mark : options_.marks)
+    if (const double along = x_.place(mark.x); x_.holds(mark.x) && along >= 0 && along <= 1)
+      shown.emplace_back(plot_.left + along * plot_.width, mark.name);
+  for (std::size_t i = 0; i < shown.size();) {
+    const double first = shown[i].first;
+    double last = first;
+    std::string names;
+    for (; i < shown.size() && shown[i].first - first < 1.2 * font; ++i) {
+      last = shown[i].first;
+      canvas_.line({last, plot_.bottom}, {last, plot_.top()}, 2 * pixel_, mark_colour);
+      names += (names.empty() ? "" : ", ") + shown[i].second;
+    }
+    const bool fits = last + gap + font < plot_.right(); // right of the line, else left of it
+    canvas_.text(names, {fits ? last + gap + 0.75 * font : first - gap, plot_.top() - gap}, font,
+                 HorizontalAlign::right, VerticalAlign::baseline, mark_colour, 90);
+  }
+}
+
 void ChartDrawing::draw_run(std::vector<Canvas::Point>& points, const Series& s, const Colour& ink) {
   // Consecutive pieces that stay inside are drawn as one line with round corners.
   std::vector<Canvas::Point> piece;
@@ -364,6 +387,7 @@ void ChartDrawing::draw_legend() {
 void ChartDrawing::draw(const std::string& path) {
   place_plot();
   draw_axes();
+  draw_marks();
   for (std::size_t i = 0; i < series_.size(); ++i)
     draw_series(i);
   draw_legend();

@@ -14,6 +14,12 @@ struct Series {
   std::optional<Colour> colour = std::nullopt; // else the next of the palette
 };
 
+// A thin upright line with its name: where something began.
+struct ChartMark {
+  double x = 0;
+  std::string name;
+};
+
 struct ChartOptions {
   std::string title;
   // "_{...}" and "^{...}" set sub- and superscripts. A label that ends in an SI unit, "opening (m)", is that of values
@@ -25,6 +31,8 @@ struct ChartOptions {
   std::string legend = "auto"; // auto: above the plot, where it covers no line; or top_left top_right
                                // bottom_left bottom_right (inside), none
   std::optional<std::array<double, 2>> x_range, y_range, right_range; // of the axes
+  std::vector<ChartMark>
+      marks; // by rising x; names of those that stand too near to be told apart share a line
 };
 
 // Writes a .png, .svg or .pdf. Throws geom::InputError for options or series that cannot be used, std::runtime_error when

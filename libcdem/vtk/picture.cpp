@@ -88,21 +88,22 @@ std::vector<WaterSheet> shown_water(const Snapshot& snapshot, const std::vector<
 }
 
 std::vector<LegendEntry> legend_entries(const PictureOptions& options, const BrokenInterfaces& broken,
-                                        bool water, const std::vector<Polyline>& arrows, double pixel) {
+                                        bool surface, bool line, const std::vector<Polyline>& arrows,
+                                        double pixel) {
   std::vector<LegendEntry> entries;
   if (!broken.tension.triangles.empty())
     entries.push_back({"broken in tension", tension_colour, 7 * pixel});
   if (!broken.shear.triangles.empty())
     entries.push_back({"broken in shear", shear_colour, 7 * pixel});
-  if (water) {
-    Colour over_white = water_colour;
-    for (double& c : over_white)
-      c = water_opacity * c + 1 - water_opacity;
+  Colour over_white = water_colour;
+  for (double& c : over_white)
+    c = water_opacity * c + 1 - water_opacity;
+  if (surface)
     entries.push_back({"water surface", over_white, 12 * pixel});
+  if (line)
     entries.push_back({"water line", water_line_colour, 4 * pixel});
-    if (!arrows.empty())
-      entries.push_back({arrows.front().label, water_line_colour, 2.5 * pixel});
-  }
+  if (!arrows.empty())
+    entries.push_back({arrows.front().label, water_line_colour, 2.5 * pixel});
   for (const Polyline& line : options.polylines)
     if (!line.label.empty())
       entries.push_back({line.label, line.colour, line.width * pixel, line.dashed});
@@ -145,6 +146,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
               : options.view == "iso" ? View::iso(options.up, snapshot.points, snapshot.surface)
                                       : View::named(options.view, options.up);
   const std::vector<WaterSheet> water = shown_water(snapshot, points, options);
+  const std::vector<Segment> line = water_lines(water, points, snapshot.surface);
   const std::vector<Polyline> arrows = water_arrows(water);
   const geom::Box extent = extent_of(view, options, points, broken, water);
 
@@ -157,7 +159,10 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
     bar->given_range = options.range.has_value();
   std::vector<LegendEntry> legend;
   if (options.legend)
-    legend = legend_entries(options, broken, !water.empty(), arrows, pixel);
+    legend = legend_entries(
+        options, broken,
+        is_seen(water, points, options.opacity < 1 ? std::vector<geom::Triangle>() : snapshot.surface, view),
+        !line.empty(), arrows, pixel);
   if (bar && !bar->outliers.empty())
     legend.push_back({bar->outliers});
   AxesContent axes;
@@ -209,7 +214,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
 
   const bool any_broken = !broken.tension.triangles.empty() || !broken.shear.triangles.empty();
   Scene scene({snapshot, points, field ? &*field : nullptr, scale, any_broken ? &broken : nullptr,
-               options.edges, options.opacity, pixel, water, arrows},
+               options.edges, options.opacity, pixel, water, line, arrows},
               view, layout.size);
   finish(layout.size, scene.renderers(), canvas);
 }

@@ -29,7 +29,7 @@ namespace {
 
 using geom::Vec3;
 
-constexpr Colour edge_colour = {0.13, 0.13, 0.13};
+constexpr Colour edge_colour = {0.13, 0.13, 0.13}, outline_colour = {0.5, 0.5, 0.5};
 // Shares of the light on a coloured face: from all round, and from the lamps. A face that looks away from both keeps the first.
 constexpr double coloured_ambient = 0.82, coloured_diffuse = 0.2;
 constexpr double broken_width = 6; // pixels of a 1600 x 1200 picture
@@ -268,7 +268,7 @@ void Scene::Impl::add_water(const SceneInput& in, const View& view) {
     for (const std::array<int, 2>& e : sheet.net)
       net.add(sheet.points[e[0]], sheet.points[e[1]], false);
   }
-  for (const Segment& s : water_lines(in.water, in.points, in.snapshot.surface))
+  for (const Segment& s : in.water_line)
     line.add(s[0], s[1], false, 0.5 * in.pixel);
   Ribbons arrows(view, 2.5 * in.pixel, 4);
   for (const Polyline& arrow : in.arrows)
@@ -331,6 +331,10 @@ Scene::Scene(const SceneInput& in, const View& view, const std::array<int, 2>& s
       if (std::binary_search(seen.begin(), seen.end(), edge_between(place[e[0]], place[e[1]])))
         ribbons.add(in.points[e[0]], in.points[e[1]], false);
     impl_->add_unlit(ribbons.points, ribbons.triangles, edge_colour);
+    Ribbons outline(view, 2.5 * in.pixel, 0);
+    for (const auto& e : in.snapshot.outline)
+      outline.add(in.points[e[0]], in.points[e[1]], false);
+    impl_->add_unlit(outline.points, outline.triangles, outline_colour);
   }
   if (in.broken)
     impl_->add_broken(in, view);

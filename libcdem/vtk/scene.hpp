@@ -8,6 +8,7 @@
 #include "libcdem/vtk/outline.hpp"
 
 #include "libcdem/vtk/view.hpp"
+#include "libcdem/vtk/water_line.hpp"
 
 #include <memory>
 
@@ -28,9 +29,9 @@ struct SceneInput {
   bool edges = true;
   double opacity = 1; // of the blocks, (0, 1]: below 1 broken interfaces inside show through
   double pixel = 1;   // line widths are given for a 1600 x 1200 picture and multiplied by this
-  std::vector<WaterSheet> water =
-      {}; // a transparent sheet each, its net, and the lines where it cuts the bodies
-  std::vector<Polyline> arrows = {}; // on the sheets, hidden by the bodies in front of them
+  std::vector<WaterSheet> water = {};   // a transparent sheet each, and its net
+  std::vector<Segment> water_line = {}; // where they cut the bodies
+  std::vector<Polyline> arrows = {};    // on the sheets, hidden by the bodies in front of them
 };
 
 class Scene {

@@ -1,5 +1,6 @@
 #include "libcdem/vtk/section.hpp"
 
+#include "libcdem/vtk/field_values.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -151,6 +152,15 @@ Snapshot joints_of(const Snapshot& all) {
   for (std::size_t t = 0; t < all.bonds.triangles.size(); ++t)
     add_seen_from_both_sides(s, all.bonds.triangles[t], static_cast<std::int64_t>(t));
   s.block_edges = outline_of(all.bonds);
+  const int first = static_cast<int>(s.points.size());
+  s.points.insert(s.points.end(), all.points.begin(), all.points.end());
+  for (SnapshotField& field : s.point_fields)
+    if (const SnapshotField* own = find_field(all.point_fields, field.name))
+      field.values.insert(field.values.end(), own->values.begin(), own->values.end());
+    else
+      field.values.resize(s.points.size() * static_cast<std::size_t>(field.components));
+  for (const std::array<int, 2>& edge : all.outline)
+    s.outline.push_back({first + edge[0], first + edge[1]});
   return s;
 }
 

@@ -14,7 +14,7 @@ struct CutPlane {
 // in between. Throws geom::InputError where it crosses none.
 Snapshot section_of(const Snapshot&, const CutPlane&);
 
-// The triangles of Snapshot::bonds, seen from both sides, with their fields in place of those of tets.
+// The triangles of Snapshot::bonds, seen from both sides, with their fields in place of those of tets; and the outline.
 Snapshot joints_of(const Snapshot&);
 
 } // namespace cdem

@@ -13,8 +13,10 @@ using Corners = std::array<Vec3, 3>;
 
 constexpr double largest_part = 0.7; // edge of a part of a triangle over the cell of the sheet
 constexpr int most_halvings = 16;
-constexpr double longest_arrow = 0.055; // of the sheet's longer side
-constexpr double shortest_arrow = 0.03; // of the longest; shorter ones are left out
+constexpr double longest_arrow = 0.055;   // of the sheet's longer side
+constexpr std::size_t most_samples = 200; // places of a sheet that are looked for
+constexpr double edge_on = 0.02;          // sine of the angle below which a sheet is seen as a line
+constexpr double shortest_arrow = 0.03;   // of the longest; shorter ones are left out
 
 // Where a function that is linear over a triangle changes its sign.
 template <class Height>
@@ -166,7 +168,31 @@ std::vector<Polyline> arrows_of(const std::vector<WaterSheet>& sheets, const Sho
   return lines;
 }
 
+// The ray from p along `toward` crosses the triangle (Moeller and Trumbore 1997).
+bool crosses(const Vec3& p, const Vec3& toward, const Corners& x) {
+  const Vec3 e1 = x[1] - x[0], e2 = x[2] - x[0], h = toward.cross(e2), s = p - x[0], q = s.cross(e1);
+  const double det = e1.dot(h), u = s.dot(h) / det, v = toward.dot(q) / det;
+  return det != 0 && u >= 0 && v >= 0 && u + v <= 1 && e2.dot(q) / det > 0;
+}
+
 } // namespace
+
+bool is_seen(const std::vector<WaterSheet>& sheets, const std::vector<Vec3>& points,
+             const std::vector<geom::Triangle>& surface, const View& view) {
+  for (const WaterSheet& sheet : sheets)
+    for (std::size_t i = 0; i < sheet.triangles.size(); i += 1 + sheet.triangles.size() / most_samples) {
+      const geom::Triangle& t = sheet.triangles[i];
+      const Vec3 &a = sheet.points[t[0]], &b = sheet.points[t[1]], &c = sheet.points[t[2]];
+      const Vec3 middle = (a + b + c) / 3, toward = view.direction_to_viewer(middle),
+                 area = (b - a).cross(c - a);
+      if (std::abs(area.dot(toward)) > edge_on * area.norm() &&
+          std::none_of(surface.begin(), surface.end(), [&](const geom::Triangle& face) {
+            return crosses(middle, toward, {points[face[0]], points[face[1]], points[face[2]]});
+          }))
+        return true;
+    }
+  return false;
+}
 
 std::vector<Segment> water_lines(const std::vector<WaterSheet>& sheets, const std::vector<Vec3>& points,
                                  const std::vector<geom::Triangle>& surface) {
@@ -221,7 +247,7 @@ std::vector<Polyline> water_in_section(const std::vector<WaterSheet>& sheets, co
       line.points = {s[0], s[1]};
       line.colour = water_colour;
       if (lines.empty())
-        line.label = "water surface";
+        line.label = "water line";
       lines.push_back(std::move(line));
     }
   }

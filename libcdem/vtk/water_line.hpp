@@ -4,6 +4,7 @@
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/vtk/picture.hpp"
 #include "libcdem/vtk/section.hpp"
+#include "libcdem/vtk/view.hpp"
 
 namespace cdem {
 
@@ -16,6 +17,11 @@ using Segment = std::array<geom::Vec3, 2>; // m
 // than a cell of the sheet are divided to its size.
 std::vector<Segment> water_lines(const std::vector<WaterSheet>&, const std::vector<geom::Vec3>& points,
                                  const std::vector<geom::Triangle>& surface);
+
+// Whether some of the sheets is seen: not seen from its edge alone, nor hidden everywhere by the surface triangles at these
+// points.
+bool is_seen(const std::vector<WaterSheet>&, const std::vector<geom::Vec3>& points,
+             const std::vector<geom::Triangle>& surface, const View&);
 
 // The part of the sheet over a rectangle of x and y; without the velocity at its points.
 WaterSheet cropped(const WaterSheet&, const geom::Box&);

@@ -22,6 +22,10 @@ model:save_joints{ file = "joints.vtp" }
 model:picture{ file = "stress.png", colour = "stress.yy", deformation = 1000, title = "Vertical stress" }
 model:picture{ file = "iso.png", colour = "displacement.magnitude", view = "iso", up = "z", size = {1600, 0} }
 
+-- example: model:film
+model:film{ file = "push.ogv", steps = 50, colour = "velocity.y", range = {-1, 1}, size = {400, 300} }
+model:run{ steps = 100 } -- a frame where the film begins and two more: push/000000000.png ... and push.ogv
+
 -- example: cdem.film
 local frames = {}
 for i = 1, 3 do

@@ -1545,7 +1545,7 @@ function Model:save_joints(options) end
 ---@field arrows? boolean default false: displacement of the blocks that are shown
 ---@field crosses? boolean default false: principal stresses of the blocks that are shown, pressure and tension in two colours
 ---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
----@field joints? boolean default false: the joints alone, between blocks; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
+---@field joints? boolean default false: the joints alone, within the outline of the bodies; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
 ---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
 ---@field water? boolean default true: free surface of the water that loads the model (model:flow with water, and the level or table of model:water), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
 ---@field water_velocity? boolean default false: velocity of that water as arrows: on its free surface, or in the section where that is upright
@@ -1554,6 +1554,75 @@ function Model:save_joints(options) end
 ---Draws the model, without a display.
 ---@param options cdem.ModelPictureOptions
 function Model:picture(options) end
+
+---@class (exact) cdem.ModelFilmOptionsCamera
+---@field position number[] m
+---@field focal_point number[] m
+---@field up? number[] default {0, 1, 0}
+---@field view_angle? number deg, in (0, 180), default 30: over the height of the picture
+---@field perspective? boolean default true
+
+---@class (exact) cdem.ModelFilmOptionsFit
+---@field min number[] m
+---@field max number[] m
+
+---@class (exact) cdem.ModelFilmOptionsMarkers
+---@field at number[] m: undeformed place
+---@field label? string
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+---@field size? number > 0, default 14: pixels across
+
+---@class (exact) cdem.ModelFilmOptionsLines
+---@field points number[][] m
+---@field label? string
+---@field colour? number[] {red, green, blue}, each 0 .. 1
+---@field width? number > 0, default 4: pixels
+---@field dashed? boolean default false
+
+---@class (exact) cdem.ModelFilmOptionsSection
+---@field point number[] m
+---@field normal number[]
+
+---@class (exact) cdem.ModelFilmOptions
+---@field file string ends in .ogv, or in .mp4 where ffmpeg is installed; in the output folder
+---@field every? number s, > 0: of the model, between frames; relaxations take none
+---@field steps? integer >= 1: instead: steps between frames, in relaxations too
+---@field frames_per_second? integer in [1, 120], default 12
+---@field colour? string field to colour by, e.g. "displacement.x", "stress.yy", "von_mises", "block_id"; plain blocks when left out
+---@field deformation? number default 1: displacements are drawn this many times larger; 0: undeformed
+---@field view? "front"|"back"|"left"|"right"|"top"|"bottom"|"iso" default "front": front looks along -z at the x-y plane
+---@field up? "y"|"z" z: front looks along y with z up; default: z where gravity acts along z, else y
+---@field camera? cdem.ModelFilmOptionsCamera instead of view
+---@field fit? cdem.ModelFilmOptionsFit a box that all frames show: that of the undeformed model when left out
+---@field size? number[] default {1600, 1200}: {width, height} in pixels
+---@field dpi? number in [10, 2400], default 300: pixels in an inch where it is printed: 1600 pixels are 135 mm wide at 300
+---@field range? number[] {lowest, highest} of the colours, SI units
+---@field colour_map? "auto"|"blue_white_red"|"cool_warm"|"viridis"|"grey"|"categorical" default "auto": auto: blue_white_red when values change sign, viridis when not. Without a range the colours span all values but a few outliers; the legend tells them
+---@field title? string the time or the step when left out
+---@field colour_bar? boolean default true
+---@field legend? boolean default true
+---@field axes? boolean default true: small arrows that name the directions
+---@field scale_bar? boolean default false: a round length under the body; none in perspective
+---@field north? number[] the direction of north, {0, 1, 0}: an arrow N beside those of the axes
+---@field markers? cdem.ModelFilmOptionsMarkers[]
+---@field lines? cdem.ModelFilmOptionsLines[]
+---@field plain? string[] names of bodies that are drawn without colour, such as a floor
+---@field hidden? string[] names of bodies that are left out, such as a wall
+---@field opacity? number in [0.05, 1], default 1: of the blocks; below 1 broken interfaces inside show through
+---@field edges? boolean default true: outlines of the blocks
+---@field section? cdem.ModelFilmOptionsSection a plane: the cut through the undeformed blocks is drawn in place of their faces
+---@field arrows? boolean default false: displacement of the blocks that are shown
+---@field crosses? boolean default false: principal stresses of the blocks that are shown, pressure and tension in two colours
+---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
+---@field joints? boolean default false: the joints alone, within the outline of the bodies; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
+---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
+---@field water? boolean default true: free surface of the water that loads the model (model:flow with water, and the level or table of model:water), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
+---@field water_velocity? boolean default false: velocity of that water as arrows: on its free surface, or in the section where that is upright
+---@field broken_bonds? boolean default true: broken interfaces, coloured by how they broke
+
+---Takes a film while the model is solved: a picture now and every so often in the stages that follow (model:run, relax and settle). The film is written when the script ends, fails or is stopped, and goes on when it is resumed; its frames stay in a folder of its name. Give `range` where colours show a field, so that they mean the same in all frames.
+---@param options cdem.ModelFilmOptions
+function Model:film(options) end
 
 ---Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is written every few minutes of a solving call too, and when a run is stopped. A resumed run executes the script again from its beginning. Calls that the script had made return what they returned before, without solving.
 function Model:checkpoint() end
@@ -1577,6 +1646,7 @@ function Model:load_state(options) end
 ---@field y string[] histories, e.g. {"residual"}; model:history() has all
 ---@field right? string[] histories read on the right
 ---@field x? string default "step": history along the x axis
+---@field stages? boolean over time, a thin line with its name where each stage began; when left out where there are two to eight of them
 ---@field title? string _{...} and ^{...} set sub- and superscripts
 ---@field x_label? string ending in an SI unit, "opening (m)", the axis is shown with the prefix that suits: mm
 ---@field y_label? string
@@ -2445,7 +2515,7 @@ function cdem.water_table(options) end
 ---@field tolerance? number > 0, default 0.02: width of the bracket that is left
 ---@field residual? number in (0, 1), default 1e-05: goal of each relaxation; smaller for models of many blocks of which few slide
 ---@field max_steps? integer >= 1, default 200000: of each relaxation; a trial that is undecided then counts as failing, with a warning
----@field smallest? number m3, >= 0, default 0: volume of a mechanism that counts: blocks that fail and are smaller together are removed from the trial, which goes on without them; their number is told
+---@field smallest? number m3, >= 0: volume of a mechanism that counts, 0 when left out: blocks that fail and are smaller together are removed from the trial, which goes on without them; their number is told
 ---@field picture? string file (.png) of the mechanism: displacement of the failing side, seen from where it moves to
 ---@field figure? string default "factor_of_safety": name of the figure in the report
 

@@ -14,7 +14,7 @@ namespace {
 
 const char* const sum = R"(
 local cdem = require "cdem"
-local a = cdem.parameter{ name = "a", default = 1 }
+local a = cdem.parameter{ name = "a", default = 1, unit = "m" }
 local b = cdem.parameter{ name = "b", default = 1 }
 if a == 13 then error("13 brings no luck") end
 if b == 99 then while true do end end
@@ -38,7 +38,7 @@ TEST_CASE("a sweep runs every combination and gathers the figures") {
   REQUIRE(outcome.exit_code == 0);
   const auto table = cdem.table();
   REQUIRE(table.size() == 7);
-  CHECK(table[0] == "a,b,exit_code,wall_time_s,sum_m");
+  CHECK(table[0] == "a (m),b,exit_code,wall_time (s),sum_m (m)");
   const std::vector<std::string> settings = {"1,10", "1,20", "1,30", "2,10", "2,20", "2,30"},
                                  sums = {"11", "21", "31", "12", "22", "32"};
   for (std::size_t i = 0; i < 6; ++i) {

@@ -117,6 +117,27 @@ TEST_CASE("a glued cut is no joint: not among the joints, and without an outline
   CHECK(edges_at(s, 2) > 0);
 }
 
+TEST_CASE("the outline behind joints is that of the bodies, without the joints", "[joint_sets]") {
+  const auto element = GENERATE(cdem::Element::small_strain, cdem::Element::finite_volume);
+  const double zones = GENERATE(0.0, 0.6);
+  if (zones > 0 && element == cdem::Element::small_strain)
+    return;
+  cdem::ModelSpec spec = bar(false, element);
+  spec.bodies[0].zone_size = zones;
+  cdem::Simulation s(spec, 1, nullptr);
+  const auto length = [&] {
+    const cdem::Snapshot joints = s.joint_picture({}, "");
+    CHECK(joints.point_fields[0].values.size() == 3 * joints.points.size());
+    double sum = 0;
+    for (const auto& edge : joints.outline)
+      sum += (joints.points[edge[1]] - joints.points[edge[0]]).norm();
+    return sum;
+  };
+  CHECK(length() == Approx(4 * 3 + 2 * 4));
+  s.remove(cdem::Selection::where([](const geom::Vec3& x) { return x.x() > 2; }, "the end"));
+  CHECK(length() == Approx(4 * 2 + 2 * 4));
+}
+
 TEST_CASE("laws of joint sets stay with their faces when blocks are taken out", "[joint_sets]") {
   System s(build(bar(false, cdem::Element::small_strain).bodies));
   const auto strength_at = [](const cdem::Model& m, double x) {

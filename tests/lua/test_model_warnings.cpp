@@ -111,6 +111,20 @@ TEST_CASE("an initial stress whose surface lies below the rock is told of", "[lu
   CHECK(told("").empty());
 }
 
+TEST_CASE("faces between rock with and without initial stress are told of, at run and in a check", "[lua]") {
+  const std::string layer = "model:initial_stress{ gradient = 25e3, k0 = 0.5, on = function(x, y, z) return ";
+  const auto script = [&](const std::string& layers) {
+    return block + layers + "model:gravity{ vector = {0, 0, -9.81} }\nmodel:relax{ max_steps = 5 }";
+  };
+  const std::string words = "blocks with initial stress and blocks without";
+  const std::string gap = script(layer + "z > 2 end }\n" + layer + "z < 1 end }\n");
+  CHECK_THAT(the_warning(gap, words), Contains("initial_stress: 8 faces of body \"column\"") &&
+                                          Contains("give one to the blocks on both sides"));
+  CHECK_THAT(checked(gap, words), Contains("8 faces"));
+  CHECK(the_warning(script(layer + "z > 2 end }\n" + layer + "z < 2 end }\n"), words).empty());
+  CHECK(the_warning(script(""), words).empty());
+}
+
 TEST_CASE("a profile of a water table that ends before the model is told of", "[lua]") {
   const auto told = [](const std::string& more) {
     return the_warning(block + "local t = cdem.water_table{ profile = { {0, 1}, {10, 3} }" + more +
@@ -174,6 +188,47 @@ TEST_CASE("a check tries functions of time over the run, one after the other", "
       Contains("amplitude(5) of case.lua:10"));
 }
 
+TEST_CASE("a check asks the water of a flow at times of each run", "[lua]") {
+  const auto error = [](const std::string& water) {
+    Script script(floor_and_units + "model:flow{ on = 'units', water = cdem.water." + water +
+                  " }\nmodel:run{ duration = 1 }");
+    script.settings.check_only = true;
+    return script.error();
+  };
+  CHECK_THAT(error("uniform{ velocity = function(t) return t < 0.5 and {1, 0, 0} or nil end }"),
+             Contains("case.lua:11: model:run: velocity(0.5"));
+  CHECK_THAT(error("field{ velocity = function(x, y, z, t) return t < 0.5 and {1, 0, 0} or nil end }"),
+             Contains("case.lua:11: model:run: velocity("));
+  CHECK(error("uniform{ velocity = function(t) return {1 - t, 0, 0} end }").empty());
+}
+
+TEST_CASE("water that stands above a floor dug later is told of", "[lua]") {
+  const std::string dug = block + "model:fix{ on = 'z-' }\nmodel:gravity{ vector = {0, 0, -9.81} }\n"
+                                  "model:water{ level = 3.9 }\nmodel:relax{ max_steps = 5 }\n"
+                                  "model:remove{ on = function(x, y, z) return x > 2 and z > 1 end }\n";
+  const std::string words = "stands above 2 m2 of open ground, up to 2.9 m",
+                    relax = "model:relax{ max_steps = 5 }";
+  CHECK_THAT(the_warning(dug + relax, words), Contains("level = 3.9 m"));
+  CHECK_THAT(checked(dug + relax, words), Contains("case.lua:12: warning"));
+  CHECK(the_warning(dug + "model:water{ level = 1 }\n" + relax, words).empty());
+}
+
+TEST_CASE("a check tells of a factor of safety that the fall of one small block decides", "[lua]") {
+  const auto summary = [](const std::string& more) {
+    Script script(column("{6, 5, 6}", "{6, 5, 6}") +
+                  "model:gravity{ vector = {0, 0, -9.81} }\nmodel:relax{}\n"
+                  "cdem.factor_of_safety{ model = model, reduce = {'joints'}" +
+                  more + " }");
+    script.settings.check_only = true;
+    script.run();
+    return script.engine->model_summary();
+  };
+  CHECK_THAT(summary(""),
+             Contains("factor_of_safety without smallest (m3): the fall of one block decides it, "
+                      "the smallest of 1 m3 too, where the model has 180 m3"));
+  CHECK_THAT(summary(", smallest = 0"), !Contains("without smallest"));
+}
+
 TEST_CASE("forces of an excavation that are still kept are told of at the end and by a reduction of strength",
           "[lua]") {
   const std::string dug =
@@ -231,7 +286,7 @@ TEST_CASE("a check tells of a probe in rock that is dug later, and of many units
     Script script("local cdem = require 'cdem'\n"
                   "local rock = cdem.elastic{ youngs_modulus = 1e8, poissons_ratio = 0.2, density = 2000 }\n"
                   "local floor = cdem.box_mesh{ size = {9, 9, 1}, divisions = {1, 1, 1} }\n"
-                  "local pile = cdem.drop{ unit = cdem.cube{ height = 0.4 }:mesh{ size = 0.4 }, count = 25, "
+                  "local pile = cdem.drop{ unit = cdem.cube{ height = 0.4 }:mesh{ size = 0.1 }, count = 25, "
                   "onto = floor }\n"
                   "cdem.model{ bodies = { { shape = floor, material = rock, element = 'rigid' },\n"
                   "  { shape = pile, material = rock, name = 'units', element = '" +
@@ -240,7 +295,8 @@ TEST_CASE("a check tells of a probe in rock that is dug later, and of many units
     script.run();
     return script.engine->model_summary();
   };
-  CHECK_THAT(summary("finite_volume"),
-             Contains("\"units\": 25 units deform, with ") && Contains("and cannot break"));
+  CHECK_THAT(summary("finite_volume"), Contains("\"units\": 25 units deform, with ") &&
+                                           Contains("and cannot break") && Contains("takes steps some ") &&
+                                           Contains(" times as long and computes no tets"));
   CHECK_THAT(summary("rigid"), !Contains("units deform"));
 }

@@ -73,6 +73,26 @@ TEST_CASE("a picture has z up where gravity acts along z, unless the script says
   CHECK(script.read("y.png") != script.read("z.png"));
 }
 
+TEST_CASE("a chart over time marks its stages, unless they are one or many", "[lua]") {
+  const auto drawn = [](const std::string& runs, const std::string& options) {
+    Script script(column() + "model:initial_velocity{ velocity = {1, 0, 0} }\n" + runs +
+                  "model:chart{ file = 'c.png', y = {'kinetic_energy'}, x = 'time', size = {320, 240}" +
+                  options + " }");
+    script.run();
+    return script.read("c.png");
+  };
+  const std::string run = "model:run{ steps = 20 }\n";
+  CHECK(drawn(run + run, "") == drawn(run + run, ", stages = true"));
+  CHECK(drawn(run + run, "") != drawn(run + run, ", stages = false"));
+  CHECK(drawn(run, "") == drawn(run, ", stages = false"));
+  CHECK(drawn(run, "") != drawn(run, ", stages = true"));
+  const std::string many = "for _ = 1, 9 do " + run + "end\n";
+  CHECK(drawn(many, "") == drawn(many, ", stages = false"));
+  CHECK_THAT(
+      Script(column() + run + "model:chart{ file = 'c.png', y = {'residual'}, stages = true }").error(),
+      Contains("stages: are marked over time; give x = \"time\" too"));
+}
+
 TEST_CASE("pictures and charts are written as PNG, SVG and PDF", "[lua]") {
   Script script(
       column() +

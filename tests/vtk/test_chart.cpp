@@ -54,6 +54,34 @@ TEST_CASE("a chart has the asked size and shows every series on both axes") {
   CHECK(folder.names() == std::vector<std::string>{"c.png"});
 }
 
+TEST_CASE("marks of a chart are upright lines at their places, with their names") {
+  const TemporaryFolder folder;
+  ChartOptions o;
+  const auto drawn = [&](const std::vector<ChartMark>& marks) {
+    o.marks = marks;
+    chart({{"", {0, 1, 2}, {0, 0.5, 0}}}, o, folder / "c.png");
+    return read_png(folder / "c.png");
+  };
+  const std::array<int, 3> grey = {115, 115, 115};
+  const auto upright = [&](const Image& image) { // columns of the picture with a line
+    std::vector<int> columns;
+    for (int x = 0; x < image.width; ++x) {
+      int along = 0;
+      for (int y = 0; y < image.height; ++y)
+        along += std::abs(image.at(x, y)[0] - grey[0]) < 40 && image.at(x, y)[0] == image.at(x, y)[2] ? 1 : 0;
+      if (along > image.height / 2)
+        columns.push_back(x);
+    }
+    return columns;
+  };
+  const std::size_t frame = upright(drawn({})).size();
+  CHECK(upright(drawn({{0.5, "1 relax"}})).size() > frame);
+  CHECK(upright(drawn({{7, "outside"}})).size() == frame);
+  // Two that stand together share the place of one, and their names a line.
+  CHECK(drawn({{0.5, "1 relax, 2 run"}}).bytes == drawn({{0.5, "1 relax"}, {0.5, "2 run"}}).bytes);
+  CHECK(drawn({{0.5, "1 relax"}}).bytes != drawn({{0.5, "2 run"}}).bytes);
+}
+
 TEST_CASE("a straight line in a chart is straight, on a linear and on a log axis") {
   // y = x on linear axes and y = 10^x on a log axis cover the same pixels: the diagonal of the plot.
   const TemporaryFolder folder;

@@ -92,6 +92,14 @@ TEST_CASE("joints alone are their triangles, seen from both sides, with their ow
     CHECK(std::set<int>(a.begin(), a.end()) == std::set<int>(b.begin(), b.end()));
     CHECK(a[1] == b[2]);
   }
+  CHECK(joints.outline.empty());
+  all.outline = {{0, 1}};
+  const Snapshot within = joints_of(all);
+  REQUIRE(within.outline.size() == 1);
+  for (std::size_t end = 0; end < 2; ++end)
+    CHECK(within.points[within.outline[0][end]] == all.points[all.outline[0][end]]);
+  for (const SnapshotField& field : within.point_fields)
+    CHECK(field.values.size() == within.points.size() * static_cast<std::size_t>(field.components));
 }
 
 TEST_CASE("arrows follow the displacement of each block, the longest is told", "[section]") {

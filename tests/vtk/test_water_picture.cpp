@@ -125,6 +125,19 @@ TEST_CASE("the water line runs once round each body, at the level of the water")
   CHECK(water_lines({level_sheet(0.3)}, s.points, s.surface).empty());
 }
 
+TEST_CASE("water that bodies hide, or that is seen from its edge, is not told as a surface that is drawn") {
+  const Snapshot s = two_blocks();
+  const View above = View::named("front", "y"), beside = View::named("top", "y");
+  const auto seen = [&](const WaterSheet& sheet, const View& view) {
+    return is_seen({sheet}, s.points, s.surface, view);
+  };
+  CHECK(seen(level_sheet(0.1), above)); // in the gap
+  CHECK_FALSE(seen(level_sheet(0.1), beside));
+  const WaterSheet in_a_block = cropped(level_sheet(0.1), {{0.1, 0.1, 0}, {0.9, 0.9, 1}});
+  CHECK_FALSE(seen(in_a_block, above));
+  CHECK(seen(cropped(level_sheet(0.3), {{0.1, 0.1, 0}, {0.9, 0.9, 1}}), above));
+}
+
 TEST_CASE("a sheet cut to a rectangle covers the rectangle") {
   const WaterSheet part = cropped(level_sheet(0.5), {{0.1, 0.2, 0}, {2.35, 1.3, 1}});
   double area = 0;
@@ -143,7 +156,7 @@ TEST_CASE("a section shows the line of the water, and its arrows outside of the 
   const CutPlane plane{{0, 0.5, 0}, {0, 1, 0}};
   const std::vector<Polyline> line = water_in_section({sheet}, plane);
   REQUIRE(!line.empty());
-  CHECK(line.front().label == "water surface");
+  CHECK(line.front().label == "water line");
   double length = 0;
   for (const Polyline& part : line)
     length += (part.points[1] - part.points[0]).norm();

@@ -170,8 +170,8 @@ void about_results(const fs::path& folder) {
   print_rows(rows);
   if (const fs::path file = folder / "settings.json"; fs::exists(file)) {
     Rows parameters;
-    for (const auto& [name, value] : read_parameters(file))
-      parameters.push_back({name, shortened(value)});
+    for (const Parameter& p : read_parameters(file))
+      parameters.push_back({p.name, shortened(p.value)});
     if (!parameters.empty()) {
       std::puts("\nparameters");
       print_rows(parameters);

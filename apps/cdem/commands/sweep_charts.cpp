@@ -75,6 +75,14 @@ void add_series(const std::string& name, std::vector<Point> points, std::vector<
 
 } // namespace
 
+std::string unit_of_parameter(const std::vector<SweptFigures>& runs, const std::string& name) {
+  for (const SweptFigures& run : runs)
+    for (const Parameter& parameter : run.parameters)
+      if (parameter.name == name)
+        return parameter.unit;
+  return "";
+}
+
 std::vector<std::string> draw_sweep(const std::vector<SweptFigures>& runs,
                                     const std::filesystem::path& folder,
                                     const std::function<void(const std::filesystem::path&)>& will_write) {
@@ -115,8 +123,8 @@ std::vector<std::string> draw_sweep(const std::vector<SweptFigures>& runs,
       all.back().style = "dashed";
     }
     ChartOptions options;
-    options.x_label = axis;
-    options.y_label = units[i].empty() || units[i] == "1" ? names[i] : names[i] + " (" + units[i] + ")";
+    options.x_label = name_with_unit(axis, unit_of_parameter(runs, axis));
+    options.y_label = name_with_unit(names[i], units[i]);
     const std::filesystem::path file = folder / file_name(names[i]);
     will_write(file);
     chart(all, options, file.string());

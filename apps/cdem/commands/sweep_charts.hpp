@@ -10,8 +10,11 @@ namespace cdem::app {
 
 struct SweptFigures {
   Settings set;
-  std::vector<Figure> figures; // none: the run failed
+  std::vector<Figure> figures;       // none: the run failed
+  std::vector<Parameter> parameters; // likewise
 };
+
+std::string unit_of_parameter(const std::vector<SweptFigures>&, const std::string& name); // "": not known
 
 // sweep_FIGURE.png in the folder, at most most_sweep_charts. One line for each combination of the other parameters, the
 // reference dashed where all runs have the same. Nothing where no parameter has two numbers. will_write is told of each

@@ -80,32 +80,36 @@ std::vector<SweptRun> planned_runs(const SweepCommand& command, const fs::path& 
 std::vector<SweptFigures> figures_of(const std::vector<SweptRun>& runs) {
   std::vector<SweptFigures> all;
   for (const SweptRun& run : runs) {
-    const fs::path report = run.folder / "report.json";
+    SweptFigures one{run.set};
     // What a failed run has in its folder may be of an earlier sweep.
-    const bool there = run.exit_code == 0 && fs::exists(report);
-    all.push_back({run.set, there ? read_report(report) : std::vector<Figure>()});
+    if (const fs::path report = run.folder / "report.json"; run.exit_code == 0 && fs::exists(report))
+      one.figures = read_report(report);
+    if (const fs::path settings = run.folder / "settings.json"; run.exit_code == 0 && fs::exists(settings))
+      one.parameters = read_parameters(settings);
+    all.push_back(std::move(one));
   }
   return all;
 }
 
-// Columns: the settings, exit code, wall time, then every figure that any report has, by name.
 void write_table(const std::vector<SweptRun>& runs, const std::vector<SweptFigures>& figures,
                  const fs::path& file) {
   std::vector<std::map<std::string, std::string>> values(runs.size());
-  std::vector<std::string> names; // in order of appearance
+  std::vector<std::string> names, titles; // in order of appearance
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const auto& figure : figures[i].figures) {
       values[i][figure.name] = figure.value;
-      if (std::find(names.begin(), names.end(), figure.name) == names.end())
+      if (std::find(names.begin(), names.end(), figure.name) == names.end()) {
         names.push_back(figure.name);
+        titles.push_back(name_with_unit(figure.name, figure.unit));
+      }
     }
   }
   std::ofstream out(file);
   for (const auto& [name, value] : runs.front().set)
-    out << script::csv_cell(name) << ',';
-  out << "exit_code,wall_time_s";
-  for (const auto& name : names)
-    out << ',' << script::csv_cell(name);
+    out << script::csv_cell(name_with_unit(name, unit_of_parameter(figures, name))) << ',';
+  out << "exit_code,wall_time (s)";
+  for (const auto& title : titles)
+    out << ',' << script::csv_cell(title);
   out << '\n';
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const auto& [name, value] : runs[i].set)

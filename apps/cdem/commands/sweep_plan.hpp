@@ -29,7 +29,7 @@ bool has_checkpoint(const SweptRun&);
 
 std::vector<SweptFigures> figures_of(const std::vector<SweptRun>&); // none of runs that failed
 
-// Columns: the settings, exit code, wall time, then every figure that any report has, by name. FileError.
+// Columns: the settings, exit code, wall time, then every figure that any report has, by name, with their units. FileError.
 void write_table(const std::vector<SweptRun>&, const std::vector<SweptFigures>&,
                  const std::filesystem::path& file);
 

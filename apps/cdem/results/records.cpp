@@ -78,13 +78,17 @@ std::vector<Figure> read_report(const std::filesystem::path& file) {
   return figures;
 }
 
-std::vector<std::pair<std::string, std::string>> read_parameters(const std::filesystem::path& settings_file) {
+std::vector<Parameter> read_parameters(const std::filesystem::path& settings_file) {
   const json settings = read(settings_file);
-  std::vector<std::pair<std::string, std::string>> parameters;
+  std::vector<Parameter> parameters;
   if (settings.is_object() && settings.contains("parameters"))
     for (const auto& [name, parameter] : settings["parameters"].items())
-      parameters.emplace_back(name, member(parameter, "value"));
+      parameters.push_back({name, member(parameter, "value"), member(parameter, "unit")});
   return parameters;
+}
+
+std::string name_with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? name : name + " (" + unit + ")";
 }
 
 } // namespace cdem::app

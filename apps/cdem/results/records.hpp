@@ -27,6 +27,15 @@ struct Figure {
   std::string name, value, unit, reference, kind, within;
 };
 std::vector<Figure> read_report(const std::filesystem::path& file); // throws script::FileError
-std::vector<std::pair<std::string, std::string>> read_parameters(const std::filesystem::path& settings_file);
+
+// One parameter of a settings.json, likewise.
+struct Parameter {
+  std::string name, value, unit;
+};
+std::vector<Parameter>
+read_parameters(const std::filesystem::path& settings_file); // throws script::FileError
+
+// "peak_force (N)"; the name alone of what has no unit.
+std::string name_with_unit(const std::string& name, const std::string& unit);
 
 } // namespace cdem::app

@@ -87,11 +87,15 @@ double contact_time_step(const Model& model, const State& state, const ContactWo
 }
 
 double rigid_time_step(const Model& model, double safety) {
+  return rigid_time_step(model, model.rigid, safety);
+}
+
+double rigid_time_step(const Model& model, const std::vector<RigidBody>& bodies, double safety) {
   double largest = 0, damped = 0; // 1/s2, 1/s
   const std::vector<double> given = given_stiffness(model);
   std::vector<double> springs(model.node_mass.size(), 0.0); // N/m, of interfaces
   add_spring_row_sums(model, springs);
-  for (const RigidBody& body : model.rigid) {
+  for (const RigidBody& body : bodies) {
     double stiffness = 0, arm = 0, held = 0,
            rate = 0; // held: 1/s2, by the springs of interfaces; rate: 1/s, likewise
     const Block& block = model.blocks[body.block];

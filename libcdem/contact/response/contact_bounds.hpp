@@ -21,6 +21,7 @@ double contact_time_step(const Model&, const State&, const ContactWork&, const C
 // s, likewise, of rigid bodies before any contact, if a fiftieth of their surface comes into contact: a step that lets
 // no more than a few contacts close at once. contact_time_step shortens it when more do. Infinite without rigid bodies.
 double rigid_time_step(const Model&, double safety);
+double rigid_time_step(const Model&, const std::vector<RigidBody>&, double safety); // of these blocks
 
 // s, `safety` times the stable step of nodes at surfaces whose contacts are given a stiffness, as if all semi-springs of
 // its own side were pressed: a contact that closes within a step must not be too stiff for that step, since contact_time_step shortens

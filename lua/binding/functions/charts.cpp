@@ -92,6 +92,26 @@ const std::vector<double>& column(const std::vector<std::pair<std::string, std::
   throw InputError(key + " = \"" + name + "\": no such history" + which_there_are(name, names));
 }
 
+// Where the stages of a model began, over time.
+std::vector<ChartMark> marks_of_stages(const Session& session, const ModelObject& model) {
+  std::vector<ChartMark> marks;
+  auto stage = session.stages.begin();
+  int last = 0;
+  for (const auto& row : model.simulation.history()) {
+    if (row.stage == last)
+      continue;
+    last = row.stage;
+    stage =
+        std::find_if(stage, session.stages.end(), [&](const Stage& s) { return s.model == model.number; });
+    if (stage == session.stages.end())
+      break;
+    marks.push_back({row.time, std::to_string(stage->number) + " " + stage->kind});
+    std::replace(marks.back().name.begin(), marks.back().name.end(), '_', ' ');
+    ++stage;
+  }
+  return marks;
+}
+
 Value chart_of_histories(Session& session, ModelObject& model, const Arguments& a) {
   require_drawing(a.text("file"));
   ChartOptions options = chart_options(a);
@@ -115,6 +135,13 @@ Value chart_of_histories(Session& session, ModelObject& model, const Arguments& 
   };
   add("y", false);
   add("right", true);
+  constexpr std::size_t readable = 8;
+  if (a.has("stages") && a.flag("stages") && x_name != "time")
+    throw InputError("stages: are marked over time; give x = \"time\" too");
+  if (a.has("stages") ? a.flag("stages") : x_name == "time")
+    options.marks = marks_of_stages(session, model);
+  if (!a.has("stages") && (options.marks.size() < 2 || options.marks.size() > readable))
+    options.marks.clear();
   if (!session.settings.check_only)
     draw(session, a.text("file"), [&](const std::string& path) { chart(all, options, path); });
   return {};
@@ -181,7 +208,10 @@ void bind_charts(Module& m) {
       histories.begin() + 1,
       {list("y", text_type()).required().doc("histories, e.g. {\"residual\"}; model:history() has all"),
        list("right", text_type(), 0).doc("histories read on the right"),
-       text("x").standard("step").doc("history along the x axis")});
+       text("x").standard("step").doc("history along the x axis"),
+       flag("stages").doc(
+           "over time, a thin line with its name where each stage began; when left out where there are "
+           "two to eight of them")});
   m.the_class("Model").add("chart", "Line chart of histories.", histories, chart_of_histories).by_rank_0();
 
   std::vector<Field> fragments = chart_fields();

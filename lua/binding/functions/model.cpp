@@ -13,6 +13,7 @@
 #include "libgeom/mesh/parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace cdem::script {
@@ -245,10 +246,16 @@ void note_deforming_units(ModelObject& model, const ModelSpec& spec) {
     std::size_t tets = 0;
     for (const geom::TetMesh& mesh : body.meshes)
       tets += mesh.tets.size();
-    model.notes->deforming.push_back("\"" + body.name + "\": " + std::to_string(body.meshes.size()) +
-                                     " units deform, with " + std::to_string(tets) +
-                                     " tets, and cannot break; where only their motion is wanted, element = "
-                                     "\"rigid\" computes no tets and takes longer steps");
+    const Simulation& simulation = model.simulation;
+    const double longer = 0.5 * simulation.rigid_time_step(body.name) / (0.9 * simulation.stable_time_step());
+    model.notes->advice.push_back(
+        "\"" + body.name + "\": " + std::to_string(body.meshes.size()) + " units deform, with " +
+        std::to_string(tets) +
+        " tets, and cannot break; where only their motion is wanted, element = \"rigid\" " +
+        (longer > 1.5 && std::isfinite(longer)
+             ? "takes steps some " + three_digits(std::round(longer)) + " times as long and "
+             : "") +
+        "computes no tets");
   }
 }
 

@@ -1,5 +1,6 @@
-// Files of a model: ParaView, pictures, films.
+// Files of a model: ParaView, pictures.
 #include "lua/binding/functions/joint_choice.hpp"
+#include "lua/binding/functions/model_picture.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/module/module.hpp"
@@ -8,7 +9,6 @@
 
 #include "libcdem/vtk/block_marks.hpp"
 #include "libcdem/vtk/field_values.hpp"
-#include "libcdem/vtk/film.hpp"
 #include "libcdem/vtk/pieces.hpp"
 #include "libcdem/vtk/section.hpp"
 #include "libcdem/vtk/water_line.hpp"
@@ -199,7 +199,9 @@ void require_together(const Arguments& a) {
     throw geom::InputError("section.normal", geom::text(section->vec3("normal")), "a direction, not zero");
 }
 
-Value picture(Session& session, ModelObject& model, const Arguments& a) {
+} // namespace
+
+Value model_picture(Session& session, ModelObject& model, const Arguments& a) {
   require_drawing(a.text("file"));
   require_together(a);
   PictureOptions options = picture_options(a);
@@ -238,7 +240,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   led_act("picture", [&] {
     Snapshot shown;
     if (a.flag("joints"))
-      shown = joints_of(model.simulation.joint_surface(chosen_joints(a), title));
+      shown = joints_of(model.simulation.joint_picture(chosen_joints(a), title));
     else if (water.point)
       shown = section_with_water(without_hidden(model.simulation.snapshot(title, water), hidden),
                                  {*water.point, water.normal}, options);
@@ -252,18 +254,7 @@ Value picture(Session& session, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-Value film(Session& session, Object*, const Arguments& a) {
-  require_one_of(a.text("file"), {".ogv", ".mp4"});
-  if (session.settings.check_only)
-    return {};
-  std::vector<std::string> frames;
-  for (const Value& frame : a.list("frames"))
-    frames.push_back(session.files.to_read(*frame.get<std::string>()).string());
-  write_film(frames, a.count("frames_per_second"), session.files.to_write(a.text("file")).string());
-  return {};
-}
-
-std::vector<Field> picture_declaration() {
+std::vector<Field> model_picture_fields() {
   std::vector<Field> fields =
       view_fields("field to colour by, e.g. \"displacement.x\", \"stress.yy\", \"von_mises\", \"block_id\"; "
                   "plain blocks when left out",
@@ -287,7 +278,8 @@ std::vector<Field> picture_declaration() {
   fields.push_back(
       list("joint_sets", text_type(), 0).doc("with joints: the sets that are drawn; all when left out"));
   fields.push_back(flag("joints").standard(false).doc(
-      "the joints alone, between blocks; colour is then \"slip\", \"opening\", \"utilisation\", "
+      "the joints alone, within the outline of the bodies; colour is then \"slip\", \"opening\", "
+      "\"utilisation\", "
       "\"normal_traction\", \"shear_traction\", \"water_pressure\", \"mode\" or \"set\""));
   fields.push_back(
       flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
@@ -302,8 +294,6 @@ std::vector<Field> picture_declaration() {
   fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
   return fields;
 }
-
-} // namespace
 
 void bind_output(Module& m) {
   Class& model = m.the_class("Model");
@@ -347,15 +337,7 @@ void bind_output(Module& m) {
             "shear, 3 contact), normal_traction, shear_traction, water_pressure, utilisation, opening, slip "
             "and parted (1: left to contact) of faces.",
             joint_file, save_joints);
-  model.add("picture", "Draws the model, without a display.", picture_declaration(), picture);
-  m.add("film", "A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.",
-        {text("file").required().doc(
-             "ends in .ogv, or in .mp4 where ffmpeg is installed; in the output folder"),
-         list("frames", text_type()).required().doc("names of the pictures, in order"),
-         integer("frames_per_second").within(1, 120).standard(12)},
-        film)
-      .replayed(Replay::recorded)
-      .by_rank_0();
+  model.add("picture", "Draws the model, without a display.", model_picture_fields(), model_picture);
 }
 
 } // namespace cdem::script

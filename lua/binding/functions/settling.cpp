@@ -1,5 +1,6 @@
 // Settling of piles, and the watch over units that leave their place.
 #include "lua/binding/functions/angles.hpp"
+#include "lua/binding/functions/films.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/module/record.hpp"
@@ -59,17 +60,10 @@ const Record<SettleResult> settle_record{
       [](const SettleResult& r) { return settle_phase.list(r.phases); }},
      {number("wall_time").unit("s"), &SettleResult::wall_time}}};
 
-std::shared_ptr<ModelObject> shared(const Session& session, const ModelObject& model) {
-  for (const auto& known : session.models)
-    if (auto object = known.lock(); object.get() == &model)
-      return object;
-  throw InputError("watch: the model is gone");
-}
-
 Value watch(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("watch");
   auto object = std::make_shared<WatchObject>();
-  object->model = shared(session, model);
+  object->model = session.held(model);
   object->number = model.simulation.watch(a.text("body"), a.number("leaves"));
   return object;
 }
@@ -95,6 +89,7 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
     throw InputError("every = " + describe(a.value("every")) +
                      ": says how often callback is called; give one");
   }
+  options.looks = film_looks(session, model);
   warn_if_nothing_acts(session, model, "settle");
   warn_of_slivers(session, model);
   return stage(session, model, "settle", a, settle_record(SettleResult()),

@@ -1,4 +1,5 @@
 // Solving calls: numbered stages, hashed by their arguments. In a check they return typed, empty results.
+#include "lua/binding/functions/films.hpp"
 #include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/module/record.hpp"
@@ -71,6 +72,7 @@ Value relax(Session& session, ModelObject& model, const Arguments& a) {
   options.callback_every = callback_interval(a);
   options.callback = callback_of(session, a);
   options.history_every = history_interval(a);
+  options.looks = film_looks(session, model);
   options.stop_on_failure = a.flag("stop_on_failure");
   options.note = a.text_or("trial", "");
   model.trial = model.trial || !options.note.empty();
@@ -115,6 +117,7 @@ Value run(Session& session, ModelObject& model, const Arguments& a) {
   options.callback_every = callback_interval(a);
   options.callback = callback_of(session, a);
   options.history_every = history_interval(a);
+  options.looks = film_looks(session, model);
   if (const auto stop = a.function("stop"))
     options.stop = [&session, stop] {
       const Values answer = session.checkpoints.call_back("stop", *stop, {});

@@ -11,10 +11,9 @@ namespace {
 
 // A model whose stage ended early: its state and its history are worth saving.
 void keep_unfinished(Session& session, ModelObject& model) {
-  for (const auto& known : session.models)
-    if (known.lock().get() == &model)
-      session.failed.push_back(known.lock());
+  session.failed.push_back(session.held(model));
   model.write_history(session);
+  session.write_films();
 }
 
 // A mistake in one would end a run after hours.

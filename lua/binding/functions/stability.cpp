@@ -1,14 +1,20 @@
 // Does it stand, and by how much: copies of a model, reduced strengths, the factor of safety (lua/cdem/safety.lua).
+#include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/session/model_object.hpp"
 
 #include "libgeom/core/error.hpp"
+
+#include <algorithm>
+#include <limits>
 
 namespace cdem::script {
 
 namespace {
 
 using geom::InputError;
+
+constexpr double small_share = 0.01; // of the volume of a model: a block whose fall is hardly that of a slope
 
 StrengthKinds kinds_of(const Arguments& a) {
   StrengthKinds kinds;
@@ -67,10 +73,17 @@ Value factor_of_safety(Session& session, Object*, const Arguments& a) {
                    "may be too large. Give a model in balance: model:copy() from before that stage, or one "
                    "that took up its loads with stronger joints (model:reduce_strength{ factor = 0.7 }, "
                    "model:relax, factor = 1 / 0.7)");
-    double volume = 0; // m3
-    for (const auto& block : model->simulation.blocks())
+    double volume = 0, least = std::numeric_limits<double>::infinity(); // m3
+    for (const auto& block : model->simulation.blocks()) {
       volume += block.volume;
-    if (a.number("smallest") >= volume)
+      least = std::min(least, block.volume);
+    }
+    if (!a.has("smallest") && least < small_share * volume)
+      model->notes->advice.push_back(
+          "factor_of_safety without smallest (m3): the fall of one block decides it, the smallest of " +
+          three_digits(least) + " m3 too, where the model has " + three_digits(volume) +
+          " m3; smallest leaves falls below it out, 0 says that they are meant");
+    if (a.optional_number("smallest").value_or(0) >= volume)
       throw InputError("smallest", describe(a.value("smallest")),
                        "below the volume of the model, " + number_text(volume) + " m3",
                        "mechanisms below it are left out");
@@ -83,6 +96,7 @@ Value factor_of_safety(Session& session, Object*, const Arguments& a) {
                                  "max_steps", "smallest", "picture", "figure"})
     if (a.has(name))
       given.named[name] = a.value(name);
+  given.named.emplace("smallest", 0.0);
   return given;
 }
 
@@ -167,9 +181,9 @@ void bind_stability(Module& m) {
            .doc("of each relaxation; a trial that is undecided then counts as failing, with a warning"),
        number("smallest")
            .at_least(0)
-           .standard(0.0)
            .unit("m3")
-           .doc("volume of a mechanism that counts: blocks that fail and are smaller together are removed "
+           .doc("volume of a mechanism that counts, 0 when left out: blocks that fail and are smaller "
+                "together are removed "
                 "from the trial, which goes on without them; their number is told"),
        text("picture").doc(
            "file (.png) of the mechanism: displacement of the failing side, seen from where it moves to"),

@@ -105,7 +105,7 @@ const Declared& declared() {
     declare(d, "cracks", "Cracks", {bind_cracks, bind_j_integral});
     declare(d, "joints", "Joints", {bind_joints});
     declare(d, "fragments", "Fragments and units", {bind_fragments, bind_units});
-    declare(d, "files", "Files and pictures", {bind_output});
+    declare(d, "files", "Files and pictures", {bind_output, bind_films});
     declare(d, "checkpoints", "Saved states", {bind_checkpoints});
     declare(d, "charts", "Charts", {bind_charts, bind_stereonets});
     declare(d, "reports", "Reports, tables and sweeps", {bind_report, bind_tables, bind_sweep});

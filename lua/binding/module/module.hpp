@@ -150,6 +150,7 @@ void bind_joints(Module&);
 void bind_fragments(Module&);
 void bind_units(Module&);
 void bind_output(Module&);
+void bind_films(Module&); // after output
 void bind_checkpoints(Module&);
 void bind_charts(Module&);
 void bind_stereonets(Module&);

@@ -70,11 +70,14 @@ void Engine::run_file() {
     impl_->lua.run(text, "@" + shown_name(script));
   } catch (const ScriptError&) {
     session.checkpoints.fail();
+    session.write_films();
     throw;
   } catch (const FileError&) {
     session.checkpoints.fail();
+    session.write_films();
     throw;
   }
+  session.write_films();
   in_script([&] { session.check_set_names(); });
   in_script([&] { session.checkpoints.end(); });
   for (const auto& notes : session.notes)
@@ -205,7 +208,7 @@ std::string Engine::model_summary() const {
     out += "model " + std::to_string(number) + ": " + session.notes[i]->built + "\n";
     for (const std::string& line : session.notes[i]->process_zones)
       out += "  " + line + "\n";
-    for (const std::string& line : session.notes[i]->deforming)
+    for (const std::string& line : session.notes[i]->advice)
       out += "  " + line + "\n";
     for (const std::string& line : session.notes[i]->apart)
       out += "  " + line + "\n";

@@ -4,6 +4,7 @@
 #include "lua/binding/schema/schema.hpp"
 #include "lua/binding/text/csv.hpp"
 
+#include "libcdem/vtk/film.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -40,6 +41,23 @@ std::string ModelObject::history_name() const {
 void ModelObject::write_history(const Session& session) const {
   led_act("history",
           [&] { write_file(session.files.to_write(history_name()), csv(history_columns(simulation))); });
+}
+
+void ModelObject::write_films(const Session& session) {
+  for (Film& film : films) {
+    const std::vector<SeriesEntry>& frames = series[session.files.would_write(film.file).string()];
+    if (frames.size() == film.written)
+      continue;
+    film.written = frames.size();
+    led_act("film", [&] {
+      std::vector<std::string> files;
+      for (const SeriesEntry& frame : frames)
+        if (const auto file = session.files.would_write(frame.file); std::filesystem::exists(file))
+          files.push_back(file.string());
+      if (!files.empty()) // else they could not be drawn, as the user was told
+        write_film(files, film.frames_per_second, session.files.to_write(film.file).string());
+    });
+  }
 }
 
 std::vector<std::pair<std::string, std::vector<double>>> history_columns(const Simulation& simulation) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lua/binding/objects/objects.hpp"
+#include "lua/binding/session/film.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libcdem/vtk/files.hpp"
@@ -21,6 +22,7 @@ struct ModelObject final : Object {
   std::map<std::string, std::vector<Selection>> places; // by model:select
   std::shared_ptr<ModelNotes> notes = std::make_shared<ModelNotes>();
   std::map<std::string, std::vector<SeriesEntry>> series; // by .pvd, in the order saved
+  std::vector<Film> films;                                // taken while it is solved; their frames: series
   std::vector<std::shared_ptr<Reference>> after_stage;    // called with each stage that has ended
   std::shared_ptr<Reference> memory;                      // table model.memory
   double told_open = 0;                                   // energy balance that the user was warned of
@@ -42,6 +44,7 @@ struct ModelObject final : Object {
   void check_memory() const;
   std::string history_name() const; // "history.csv", "history_2.csv" ..., in the folder "trials" for a trial
   void write_history(const Session&) const;
+  void write_films(const Session&); // that have new frames
 };
 
 // The history as columns by name, in the order of the file.

@@ -1,7 +1,9 @@
 #include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/plain_reason.hpp"
 #include "lua/binding/replay/led.hpp"
+#include "lua/binding/session/model_object.hpp"
 #include "lua/binding/text/nearest.hpp"
 
 #include <algorithm>
@@ -97,6 +99,23 @@ void Session::warn(const std::string& text) {
     settings.observer->warning(line);
   else
     std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+std::shared_ptr<ModelObject> Session::held(const ModelObject& model) const {
+  for (const auto& known : models)
+    if (auto object = known.lock(); object.get() == &model)
+      return object;
+  return nullptr;
+}
+
+void Session::write_films() {
+  const Doing saves(settings.observer.get(), Activity::saving);
+  for (const auto& model : filmed)
+    try {
+      model->write_films(*this);
+    } catch (const std::exception& error) {
+      warn(std::string("film: ") + geom::plain_reason(error));
+    }
 }
 
 void Session::write_report() {

@@ -29,7 +29,7 @@ struct ModelNotes {
   std::string built;                      // bodies, blocks, tets, bonds, size
   std::vector<std::string> process_zones; // one line each
   std::vector<std::string> conditions;    // one line each
-  std::vector<std::string> deforming;     // units that deform and need not, one line a body
+  std::vector<std::string> advice;        // what is hardly meant, or takes long, one line each
   std::vector<std::string> apart;  // contacts without an interface when the model was made, one line each
   std::vector<std::string> at_end; // warnings after the last solving call, for when the script has ended
 };
@@ -50,6 +50,7 @@ struct Session {
   std::vector<std::weak_ptr<ModelObject>> models;
   std::vector<std::shared_ptr<ModelNotes>> notes;   // of the same models
   std::vector<std::shared_ptr<ModelObject>> failed; // models whose stage failed or was stopped
+  std::vector<std::shared_ptr<ModelObject>> filmed;
   std::vector<std::string> warnings;
   std::set<std::string> appended; // files that a resumed script has opened to add to
   Checkpoints checkpoints{*this};
@@ -67,6 +68,11 @@ struct Session {
   void warn(const std::string& text); // with the place in the script
   // The observer of models: it passes everything on, warnings with the place in the script. Lives no longer than the session.
   std::shared_ptr<Observer> observer_of_models();
+
+  std::shared_ptr<ModelObject> held(const ModelObject&) const; // null once nothing holds it any more
+
+  // Those of `filmed`, when the script has ended or cannot go on. One that cannot be written is a warning.
+  void write_films();
 
   // report.json and report.md; not in a check. FileError when they cannot be written.
   void write_report();
