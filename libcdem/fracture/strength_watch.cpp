@@ -376,9 +376,9 @@ std::vector<char> StrengthWatch::due(const Model& model, const State& state, con
     of_body[model.blocks[model.mesh.chunks[c].block].body] += due[c];
   if (shared)
     ranks().sum(of_body.data(), of_body.size());
-  std::vector<char> bodies;
-  for (const std::int64_t faces : of_body)
-    bodies.push_back(static_cast<char>(faces > 0));
+  std::vector<char> bodies(of_body.size(), 0);
+  std::transform(of_body.begin(), of_body.end(), bodies.begin(),
+                 [](std::int64_t chunks) { return static_cast<char>(chunks > 0); });
   return bodies;
 }
 
