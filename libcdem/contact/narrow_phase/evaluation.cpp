@@ -16,6 +16,8 @@ namespace {
 
 // What is nearer than this many times the deepest contact of a row is looked at in every step.
 constexpr double reach_over_depth = 1.5;
+// Distance of the nearest place, over that within which places count as one.
+constexpr double turned_by_places = 32;
 
 } // namespace
 
@@ -208,8 +210,7 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       }
       of_surface[corner].add(found, y.x, y.normal, triangle.height, gives, spring[corner],
                              [&] { return apex_of(model_, state_, triangle); });
-      if (open)
-        awake_[corner].push_back(found);
+      awake_[corner].push_back(found);
     }
     // It sleeps no longer than it is too far off to count as one place with what a contact may begin at.
     const double one_place = gives * triangle.height + 4 * same_place * row.reach;
@@ -240,9 +241,13 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       // What is outside gets in through the surface, where it is closed.
       row.known_target[corner] = -1;
       until = std::min(least - 4 * one_place, d.asleep);
+      // So near, others that come to count as one place with the nearest may turn the side that the spring is on.
+      const bool turns = least < turned_by_places * one_place;
       for (const Nearest& on : awake_[corner]) {
         if (until <= 0)
           break;
+        if (!turns && !open_at(model_, work_, row.source, on.target))
+          continue;
         const Corners& x = facet(on.target).x;
         until = std::min(until, outside_until(on, x, spring[corner], least, one_place, row.reach, [&] {
                            return apex_of(model_, state_, surface_.triangles[on.target]);
@@ -255,8 +260,9 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
 
 // What is deep and was no contact before has come there by no motion, as at the mouth of a crack. Steps with some asleep do
 // not see it: it would begin where a search happens to be.
-double Evaluation::begins_at(int source_mover, int mover, double shallow) const {
-  const bool any_depth = work_.any_depth_begins || work_.changed[source_mover] || work_.changed[mover];
+double Evaluation::begins_at(int source, int target, double shallow) const {
+  const bool any_depth = work_.any_depth_begins || work_.changed[source] != Change::none ||
+                         work_.changed[target] != Change::none;
   return any_depth ? std::numeric_limits<double>::infinity() : shallow;
 }
 
@@ -310,7 +316,7 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       continue;
     }
     if (add_contact(row.source, corner, spring[corner], work_.fragment[found.target], found,
-                    begins_at(row.source_mover, row.mover, shallow))) {
+                    begins_at(row.source, found.target, shallow))) {
       deepest2 = std::max(deepest2, found.distance2);
       sleeps = 0;
     } else {
