@@ -17,7 +17,7 @@ constexpr double thinnest_skin = 0.001, thickest_skin = 0.1;
 // are trusted to get to.
 constexpr double skin_steps = 250, pace_of_others = 0.25;
 // The same of fragments, by themselves and relative to those around them, with which they mostly move.
-constexpr double steps_of_fragments = 150, steps_relative = 48;
+constexpr double steps_of_fragments = 150, steps_relative = 16;
 // Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
 constexpr std::int64_t early = 50, late = 150;
 constexpr int most_widenings = 6;

@@ -417,9 +417,8 @@ void look_around(const Model& model, ContactWork& work, int m) {
                  may_go = std::max(0.0, other.may_go - gone);
     least = std::min(least, may_go);
     work.look_at[k] = std::min(work.look_at[k], work.travelled[k] + 0.5 * may_go);
-    // One search is enough: of the one that goes past the others, unless it costs more than theirs.
-    double& left =
-        work.left[work.past_others[m] * size_of(work, k) >= work.past_others[k] * size_of(work, m) ? m : k];
+    // One search is enough: of the one that goes past the others.
+    double& left = work.left[work.past_others[m] >= work.past_others[k] ? m : k];
     left = std::min(left, may_go / other.may_go);
   }
   work.look_at[m] = work.travelled[m] + 0.5 * least;

@@ -77,8 +77,8 @@ Renewed movers_to_search(const Model& model, ContactWork& work, bool all) {
   for (int m = 0; m < work.movers.count(); ++m) {
     const int block = work.movers.block[m];
     const auto soon_due = [&] {
-      const double left = size_of(work, m) < searched_by_itself ? searched_with_others : 0;
-      return work.left[m] <= left || gone_at_most(model, work, m) > (1 - left) * work.skin[m];
+      return work.left[m] < searched_with_others ||
+             gone_at_most(model, work, m) > (1 - searched_with_others) * work.skin[m];
     };
     if (!all && m >= blocks && (work.search_of[m] == 0 || soon_due()))
       renewed.movers[m] = renewed.blocks[block] = 1;

@@ -23,10 +23,8 @@ struct Renewed {
   std::vector<int> pair_now;
 };
 
-// Share of a skin: a fragment with less left is searched with the first that leaves its own. Not so a large one, of so many
-// nodes: its search costs more than all else.
+// Share of a skin: a fragment with less left is searched with the first that leaves its own.
 inline constexpr double searched_with_others = 0.6;
-inline constexpr int searched_by_itself = 200;
 
 // Movers that are new, and those that have left their skins or soon will, or all; and sources that may meet what they could
 // not before, or whose targets are of one fragment no more. Other rows of what has changed are looked at in this step.

@@ -16,8 +16,6 @@ namespace {
 
 // What is nearer than this many times the deepest contact of a row is looked at in every step.
 constexpr double reach_over_depth = 1.5;
-// Distance of the nearest place, over that within which places count as one.
-constexpr double turned_by_places = 32;
 
 } // namespace
 
@@ -210,7 +208,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       }
       of_surface[corner].add(found, y.x, y.normal, triangle.height, gives, spring[corner],
                              [&] { return apex_of(model_, state_, triangle); });
-      awake_[corner].push_back(found);
+      if (open)
+        awake_[corner].push_back(found);
     }
     // It sleeps no longer than it is too far off to count as one place with what a contact may begin at.
     const double one_place = gives * triangle.height + 4 * same_place * row.reach;
@@ -241,13 +240,9 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       // What is outside gets in through the surface, where it is closed.
       row.known_target[corner] = -1;
       until = std::min(least - 4 * one_place, d.asleep);
-      // So near, others that come to count as one place with the nearest may turn the side that the spring is on.
-      const bool turns = least < turned_by_places * one_place;
       for (const Nearest& on : awake_[corner]) {
         if (until <= 0)
           break;
-        if (!turns && !open_at(model_, work_, row.source, on.target))
-          continue;
         const Corners& x = facet(on.target).x;
         until = std::min(until, outside_until(on, x, spring[corner], least, one_place, row.reach, [&] {
                            return apex_of(model_, state_, surface_.triangles[on.target]);
