@@ -93,7 +93,8 @@ void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const F
 } // namespace
 
 SofteningLaw cohesive_law(const Joint& joint, double k) {
-  return softening_law(joint, k, k, SofteningBegins::at_strength);
+  const double stiffness = crack_stiffness * k;
+  return softening_law(joint, stiffness, stiffness, SofteningBegins::at_strength);
 }
 
 double damage_of(const CohesiveFace& face) {
@@ -147,7 +148,7 @@ FaceSpring cohesive_spring(const FaceBatch& batch, int lane, const FaceFrame& f,
     const Triple<double> gap = triple(f.in_axes(f.gap[point]));
     const CohesiveResponse<double> r = cohesive_response<double>(law, at, gap, false);
     spring.force = f.in_space(batch.area[lane] * vec(r.traction));
-    spring.energy = batch.area[lane] * cohesive_stored<double>(law, at, gap, r.law);
+    spring.energy = batch.area[lane] * cohesive_stored<double>(law, at, gap, r);
   }
   return spring;
 }
@@ -178,12 +179,17 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const
   state.stage[lane] = FaceStage::cracking;
   face.plane = array(f.in_axes(m));
   const SofteningLaw law = cohesive_law(joint, k);
+  const PartsOfStretch<double> stands =
+      parts_of_stretch<double>(law, triple(f.in_axes(m)), triple(Vec3(on_plane / law.kn)));
   for (int point = 0; point < 3; ++point) {
     const Vec3 gap = f.in_axes(f.gap[point]), pulls = on_face + k * (gap + vec(face.offset[point]));
-    face.offset[point] = array(on_plane / k - gap);
+    // A crack that ended may have damaged it: its law goes on where it was.
+    const double part = 1 - face.damage[point], drawn = fourth_power(part);
+    face.offset[point] = array(vec(stands.pressed) + vec(stands.bonded) / (part * drawn) - gap);
+    face.drawn[point] = drawn;
+    face.slip[point] = {};
     face.rest[point] = {};
-    // It may be damaged by a crack that ended.
-    face.rest[point] = array((pulls - carried(law, face, point, gap)) / (1 - face.damage[point]));
+    face.rest[point] = array((pulls - carried(law, face, point, gap)) / part);
     if (!law.softens)
       state.mode[point][lane] = static_cast<std::uint8_t>(mode);
   }
@@ -219,7 +225,9 @@ std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceMome
   const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
   const Vec3 m = vec(face.plane);
   for (int point = 0; point < 3; ++point) {
-    const Vec3 t = law.kn * (f.in_axes(f.gap[point]) + vec(face.offset[point]));
+    const CohesiveResponse<double> r =
+        cohesive_response<double>(law, cohesive_point(face, point), triple(f.in_axes(f.gap[point])), false);
+    const Vec3 t = vec(r.across);
     const double normal = t.dot(m), shear = (t - normal * m).norm(),
                  left = unloaded * (1 - face.damage[point]);
     if (normal > left * law.tensile_strength ||
@@ -231,7 +239,7 @@ std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceMome
   for (int point = 0; point < 3; ++point) {
     const Vec3 gap = f.in_axes(f.gap[point]);
     const Vec3 traction = carried(law, face, point, gap);
-    face.offset[point] = array((traction - on_face) / law.kn - gap);
+    face.offset[point] = array((traction - on_face) / penalty(batch, lane) - gap);
     face.rest[point] = {};
   }
   state.stage[lane] = FaceStage::resumed;

@@ -5,17 +5,15 @@
 // the mean stress s of the two tets reaches the strength on a plane with the normal m (fracture/critical_plane.hpp) the
 // face cracks. From then on its law acts on that plane, for any direction n of the face, and does not depend on the
 // stress of the tets:
-//   t = (m.n) law(j + w0) + (1 - D) r0
-// law: joint/softening.hpp with kn = ks = k on the plane m, D its damage; brittle: the contact that is left. w0 = s m / k - j
-// makes the law begin with the traction s m, brought back to the strength where it is beyond it. r0 is the traction of the face less (m.n) s m, so that the
-// traction is continuous. A crack takes G times its area projected on m, for any faces that it follows. On the faces'
-// own planes a crack that zigzags would lock.
+//   t = (m.n) law(j) + (1 - D) r0
+// law: bond/cohesive_law.hpp on the plane m, D its damage; brittle: the contact that is left. It begins with the traction s m,
+// brought back to the strength where it is beyond it. r0 is the traction of the face less (m.n) s m, so that the traction is
+// continuous. A crack takes G times its area projected on m, for any faces that it follows. On the faces' own planes a crack
+// that zigzags would lock.
 //
-// The law begins with a stored energy s m . s m / 2k that the body never stored. This energy counts neither as stored
-// nor, as damage grows, as taken by breaking, so a face that unloads then stores less than nothing. A face that unloads
-// with little damage becomes whole again, so that it does not give this energy back. A face whose points have lost all
-// strength and are open has separated: what is left of its springs is a contact on the face's own plane, as a broken face of a body
-// with springs has it (bond/broken_faces.hpp), until its sides have parted or slid away and the contact of the surface takes over.
+// A face that unloads with little damage becomes whole again. A face whose points have lost all strength and are open has
+// separated: what is left of its springs is a contact on the face's own plane, as a broken face of a body with springs has it
+// (bond/broken_faces.hpp), until its sides have parted or slid away and the contact of the surface takes over.
 //
 // Preload: a node that has just been freed leaves each of its copies with the force that keeps its acceleration, on the
 // faces between them. It dies away over some hundred steps. It acts while the face holds and while it draws the corner's two
@@ -31,6 +29,10 @@
 #include <optional>
 
 namespace cdem {
+
+// Stiffness of the law of a cracked face over the penalty of a face that holds. The stable step stands it: the mean stress of
+// the tets, which acts on a face that holds, is gone.
+constexpr double crack_stiffness = 1.8;
 
 // The law of a cracked face of a body with this joint, whose penalty is k, Pa/m.
 SofteningLaw cohesive_law(const Joint&, double k);

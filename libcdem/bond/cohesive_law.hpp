@@ -1,5 +1,15 @@
 // What one point of a cracking face carries and stores, per area (bond/cohesive_faces.hpp). Vectors stand in the face's own
 // axes. T: double, or a vector of doubles for the points of several faces.
+//
+// The law begins drawn by w0: as if a spring of the stiffness k carried what stood there. Pressure, and the shear that its
+// friction holds, are w_f; what tension and cohesion held is w_c = w0 - w_f. With D = 1 - lambda the damage:
+//
+//   t = lambda k (j + w_f + a w_c) + (1 - lambda) t_c          t_c: the contact's at j + w_f
+//
+// While the crack goes on, lambda falls so that t stays on the strength surface, with s(xi) of joint/softening.hpp left of the
+// strength (xi: that of j + w0), and a falls with lambda^4, but not where j goes against w_c, which would give energy.
+// So a face that unloads has no traction at j = -a w_c: next to the origin once it is damaged by a tenth, and it gives back
+// no more than it took.
 #pragma once
 
 #include "libcdem/joint/softening.hpp"
@@ -15,6 +25,7 @@ struct CohesivePoint {
   Triple<T> rest{};   // Pa, r0
   Triple<T> slip{};   // m, of the damaged part
   T damage{};         // D
+  T drawn{};          // a
 };
 
 template <class T>
@@ -39,6 +50,7 @@ CDEM_INLINE void read_point(const CohesiveFace& face, int point, int lane, Cohes
   set(at.rest, lane, face.rest[point]);
   set(at.slip, lane, face.slip[point]);
   set(at.damage, lane, face.damage[point]);
+  set(at.drawn, lane, face.drawn[point]);
 }
 
 inline CohesivePoint<double> cohesive_point(const CohesiveFace& face, int point) {
@@ -48,56 +60,139 @@ inline CohesivePoint<double> cohesive_point(const CohesiveFace& face, int point)
 }
 
 template <class T>
-struct CohesiveResponse {
-  Triple<T> traction{}; // Pa, on side a
-  SofteningResponse<T> law;
+CDEM_INLINE T fourth_power(const T& x) {
+  return (x * x) * (x * x);
+}
+
+// The two parts of a stretch, m.
+template <class T>
+struct PartsOfStretch {
+  Triple<T> pressed; // w_f
+  Triple<T> bonded;  // w_c
 };
 
+template <class T>
+CDEM_INLINE PartsOfStretch<T> parts_of_stretch(const SofteningLawOf<T>& law, const Triple<T>& normal,
+                                               const Triple<T>& stretch) {
+  const T none{}, one = none + 1.0;
+  const T open = dot(stretch, normal);
+  const Triple<T> along = stretch - open * normal;
+  const T shear = root(dot(along, along)),
+          held = friction_limit<T>(none < -open ? -open : none, law.tan_friction);
+  const auto slips = shear > held;
+  const T slipping = slips ? (shear - held) / (slips ? shear : one) : none;
+  const Triple<T> bonded = (none < open ? open : none) * normal + slipping * along;
+  return {stretch - bonded, bonded};
+}
+
+template <class T>
+CDEM_INLINE T strength_ratio(const SofteningLawOf<T>& law, const Triple<T>& normal,
+                             const Triple<T>& stretch) {
+  const T open = dot(stretch, normal);
+  const Triple<T> shear = stretch - open * normal;
+  return strength_ratio<T>(law, open, root(dot(shear, shear)));
+}
+
+template <class T>
+struct CohesiveResponse {
+  Triple<T> traction{};                 // Pa, on side a
+  Triple<T> across{};                   // Pa, t, across the plane
+  Triple<T> contact{};                  // Pa, t_c
+  Triple<T> slip{};                     // m, new slip of the damaged part
+  Triple<T> stretch{};                  // m, j + w_f + a w_c
+  T damage{}, drawn{};                  // new D and a
+  simd::MaskOf<T> separated{}, opens{}; // by this step, and by opening rather than by slip
+};
+
+// Steps of Newton's method towards the strength surface. They come from outside and never go beyond it, as the slope is not
+// less than the true one; what is left goes with the next step of time.
+constexpr int cohesive_iterations = 4;
+
+// grows: damage may advance.
 template <class T>
 CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, const CohesivePoint<T>& at,
                                                   const Triple<T>& gap, const simd::MaskOf<T>& grows) {
+  const T none{}, one = none + 1.0;
+  const PartsOfStretch<T> begun = parts_of_stretch<T>(law, at.plane, at.offset);
+  const Triple<T> pressed = gap + begun.pressed;
   CohesiveResponse<T> r;
-  r.law = softening_response<T>(law, at.plane, gap + at.offset, at.damage, at.slip, grows & law.softens);
-  r.traction = at.plane.z * r.law.traction + (1.0 - r.law.damage) * at.rest;
+  r.damage = at.damage;
+  r.drawn = at.drawn;
+  const simd::MaskOf<T> may = grows & law.softens & (at.damage < one);
+  if (simd::any(may)) {
+    const Triple<T> whole = gap + at.offset;
+    const T open = dot(whole, at.plane);
+    const Triple<T> along = whole - open * at.plane;
+    const T shear = root(dot(along, along)), drive = strength_ratio<T>(law, open, shear);
+    const StrengthLeft<T> left = strength_left<T>(law, open, shear, drive < one ? one : drive);
+    const T before = one - at.damage;
+    T ratio = strength_ratio<T>(law, at.plane, pressed + at.drawn * begun.bonded);
+    const simd::MaskOf<T> advances = may & (before * ratio > left.part);
+    if (simd::any(advances)) {
+      const simd::MaskOf<T> onwards = dot(gap, begun.bonded) > none;
+      const T begun_ratio = strength_ratio<T>(law, at.plane, begun.bonded),
+              fading = onwards ? 4.0 * begun_ratio : none;
+      T part = one, drawn = at.drawn; // of lambda, a
+      for (int i = 0; i < cohesive_iterations; ++i) {
+        const T excess = before * part * ratio - left.part, slope = before * (ratio + fading * drawn);
+        const T next = part - (advances ? excess : none) / (advances ? slope : one);
+        part = next < none ? none : next;
+        drawn = onwards ? at.drawn * fourth_power<T>(part) : at.drawn;
+        ratio = strength_ratio<T>(law, at.plane, pressed + drawn * begun.bonded);
+      }
+      const simd::MaskOf<T> ends = left.part <= none;
+      r.damage = advances ? (ends ? one : one - before * part) : r.damage;
+      r.drawn = advances ? (ends ? none : drawn) : r.drawn;
+      r.separated = advances & ends;
+      r.opens = left.opens;
+    }
+  }
+  const SpringResponseOf<T> contact =
+      contact_response<T>(law.kn, law.ks, law.tan_friction, at.plane, pressed, at.slip);
+  r.contact = contact.traction;
+  r.slip = contact.offset;
+  r.stretch = pressed + r.drawn * begun.bonded;
+  r.across = ((one - r.damage) * law.kn) * r.stretch + r.damage * r.contact;
+  r.traction = at.plane.z * r.across + (one - r.damage) * at.rest;
   return r;
 }
 
-// Energies of one point, J per area. The law begins stretched by w0 = offset (+ a gap of next to nothing), as if its spring
-// had been drawn there: k w0^2 / 2, which the body never stored. Damage can take
-//   P = k (<w0_n>^2 + <|w0_s| - friction>^2) / 2
-// of it. The rest, of pressure and friction, goes with the last of the strength, as D^8: where damage takes most per D. So a
-// face that has lost its strength stores what its contact stores, and what breaking takes grows all along. The springs of a
-// brittle face, which loses its strength at once, keep this rest until it parts.
+// J per area, across the plane: what the springs store, less what they stored when the crack began, which the body never did.
+// Of that, the part of w_c fades with the law's own; the rest, of pressure and friction, goes with the last of the strength, as
+// D^32: where damage takes most per D. So a face that has lost its strength stores what its contact stores, and what breaking
+// takes grows all along. The springs of a brittle face, which loses its strength at once, keep this rest until it parts.
 template <class T>
-struct NeverStored {
-  T all{}, by_damage{}; // k w0^2 / 2 and P
-  simd::MaskOf<T> late{};
-
-  CDEM_INLINE T left(const T& damage) const {
-    const T none{}, d2 = damage * damage, d4 = d2 * d2;
-    return all - damage * by_damage - (late ? d4 * d4 : none) * (all - by_damage);
-  }
-};
-
-template <class T>
-CDEM_INLINE NeverStored<T> never_stored(const SofteningLawOf<T>& law, const CohesivePoint<T>& at) {
-  const T none{};
-  const T open = dot(at.offset, at.plane);
-  const Triple<T> along = at.offset - open * at.plane;
-  const T shear = root(dot(along, along)), opening = none < open ? open : none;
-  const T slipping = shear - friction_limit<T>(none < -open ? -open : none, law.tan_friction),
-          slip = none < slipping ? slipping : none;
-  return {0.5 * law.kn * dot(at.offset, at.offset), 0.5 * law.kn * (opening * opening + slip * slip),
-          law.softens};
+CDEM_INLINE T stored_across(const SofteningLawOf<T>& law, const CohesivePoint<T>& at,
+                            const CohesiveResponse<T>& now) {
+  const PartsOfStretch<T> begun = parts_of_stretch<T>(law, at.plane, at.offset);
+  const T none{}, rubbing = dot(now.contact, now.contact) / (law.kn * law.kn),
+                  bonded = dot(begun.bonded, begun.bonded), rest = dot(at.offset, at.offset) - bonded,
+                  fourth = fourth_power<T>(now.damage),
+                  late = law.softens ? fourth_power<T>(fourth * fourth) : none;
+  return 0.5 * law.kn *
+         ((1.0 - now.damage) * (dot(now.stretch, now.stretch) - now.drawn * now.drawn * bonded) +
+          now.damage * rubbing - (1.0 - late) * rest);
 }
 
-// r0 stores (1 - D) r0.j.
+// J per area of the face. r0 stores (1 - D) r0.j.
 template <class T>
 CDEM_INLINE T cohesive_stored(const SofteningLawOf<T>& law, const CohesivePoint<T>& at, const Triple<T>& gap,
-                              const SofteningResponse<T>& now) {
-  return at.plane.z * (softening_stored<T>(law, at.plane, gap + at.offset, now.damage, now.contact) -
-                       never_stored<T>(law, at).left(now.damage)) +
-         (1.0 - now.damage) * dot(at.rest, gap);
+                              const CohesiveResponse<T>& now) {
+  return at.plane.z * stored_across<T>(law, at, now) + (1.0 - now.damage) * dot(at.rest, gap);
+}
+
+// What a step from the relative displacement gap0 to gap1 lost, across the plane: work by the trapezoidal rule less the
+// change of what is stored. Friction is the work of t_c over the growth of D slip.
+template <class T>
+CDEM_INLINE SofteningLoss<T> cohesive_loss(const SofteningLawOf<T>& law, const CohesivePoint<T>& at,
+                                           const Triple<T>& gap0, const Triple<T>& gap1,
+                                           const CohesiveResponse<T>& now) {
+  const CohesiveResponse<T> before = cohesive_response<T>(law, at, gap0, simd::MaskOf<T>{});
+  SofteningLoss<T> loss;
+  loss.friction = 0.5 * dot(before.contact + now.contact, now.damage * now.slip - at.damage * before.slip);
+  loss.breaking = 0.5 * dot(before.across + now.across, gap1 - gap0) -
+                  (stored_across<T>(law, at, now) - stored_across<T>(law, at, before)) - loss.friction;
+  return loss;
 }
 
 } // namespace cdem

@@ -139,7 +139,8 @@ CDEM_INLINE SofteningLawOf<V> laws_of(const CohesiveChunk& chunk, const Group<V>
       set_lane(lane, softening_values(own, chunk.joints.tan_friction(g.face[lane], chunk.tan_friction)));
     }
   }
-  return softening_law<V>(joint, g.k, g.k, SofteningBegins::at_strength);
+  const V k = crack_stiffness * g.k;
+  return softening_law<V>(joint, k, k, SofteningBegins::at_strength);
 }
 
 // What happens seldom, to one face: its springs act for the last time.
@@ -161,8 +162,8 @@ public:
     for (int point = 0; point < 3; ++point) {
       chunk_.sums.breaking -= 0.5 * pull[point].dot(now_.gap[point] - before.gap[point]);
       const geom::Vec3 gap = now_.in_axes(now_.gap[point]);
-      cohesive_.offset[point] = {0, 0, std::max(0.0, -gap.z())};
-      cohesive_.slip[point] = {gap.x(), gap.y(), 0};
+      cohesive_.offset[point] = {};
+      cohesive_.slip[point] = {gap.x(), gap.y(), std::min(0.0, gap.z())};
       cohesive_.rest[point] = {};
     }
     cohesive_.plane = {0, 0, 1};
@@ -248,34 +249,31 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int
       read_point(chunk.cohesive[g.face[lane]], point, lane, at);
     const T3 &gap = s.now.gap[point], &gap0 = s.before.gap[point];
     const CohesiveResponse<V> r = cohesive_response<V>(law, at, gap, grows);
-    const SofteningLoss<V> lost =
-        softening_loss<V>(law, at.plane, gap0 + at.offset, at.damage, at.slip, gap + at.offset, r.law);
-    const MaskOf<V> damaged = r.law.damage > none; // nothing is lost while it is whole
-    const NeverStored<V> never = never_stored<V>(law, at);
-    const V begun_with = never.left(at.damage) - never.left(r.law.damage);
-    const V facing = g.area * at.plane.z, grown = r.law.damage - at.damage;
-    const V taken = facing * ((damaged ? lost.breaking : none) - begun_with);
+    const SofteningLoss<V> lost = cohesive_loss<V>(law, at, gap0, gap, r);
+    const MaskOf<V> damaged = r.damage > none; // nothing is lost while it is whole
+    const V facing = g.area * at.plane.z, grown = r.damage - at.damage;
+    const V taken = facing * (damaged ? lost.breaking : none);
     // What the point loses goes by the trapezoidal rule.
     friction += damaged ? facing * lost.friction : none;
     breaking += taken + 0.5 * g.area * grown * dot(at.rest, gap + gap0);
     const V into_crack = (grown > none) & (taken > none) ? taken : none,
-            share_of_shear = shear_share<V>(law, at.plane, gap + at.offset);
+            share_of_shear = shear_share<V>(law, at.plane, r.stretch);
     shear += share_of_shear * into_crack;
     tension += (1.0 - share_of_shear) * into_crack;
-    const MaskOf<V> no_traction =
-        (r.law.traction.x == none) & (r.law.traction.y == none) & (r.law.traction.z == none);
-    const MaskOf<V> lost_all = r.law.damage >= one;
+    const MaskOf<V> no_traction = (r.across.x == none) & (r.across.y == none) & (r.across.z == none);
+    const MaskOf<V> lost_all = r.damage >= one;
     without &= lost_all;
     open &= no_traction;
     ended[point] = simd::bits_of(lost_all) & used;
-    opened[point] = simd::bits_of(MaskOf<V>((!r.law.separated) | r.law.opens));
+    opened[point] = simd::bits_of(MaskOf<V>((!r.separated) | r.opens));
     began[point] = law.kn * at.offset; // the relative displacement was nearly zero then
     m = at.plane;
     pull[point] = s.now.in_space(g.area * r.traction);
     for (int lane = 0; lane < g.count; ++lane) {
       CohesiveFace& face = chunk.cohesive[g.face[lane]];
-      face.damage[point] = r.law.damage[lane];
-      face.slip[point] = {r.law.slip.x[lane], r.law.slip.y[lane], r.law.slip.z[lane]};
+      face.damage[point] = r.damage[lane];
+      face.drawn[point] = r.drawn[lane];
+      face.slip[point] = {r.slip.x[lane], r.slip.y[lane], r.slip.z[lane]};
     }
   }
   FaceSums& sums = chunk.sums;

@@ -132,6 +132,34 @@ CDEM_INLINE T softening_curve(const simd::MaskOf<T>& exponential, const T& xi) {
   return within ? left : none;
 }
 
+// r, of a stretch with these parts, m: kn open and ks shear over the strength surface, in the direction of zero.
+template <class T>
+CDEM_INLINE T strength_ratio(const SofteningLawOf<T>& law, const T& open, const T& shear) {
+  const T tn = law.kn * open, tension = tn / law.tensile_strength,
+          sliding = cohesive_load<T>(law.ks * shear, law.tan_friction, tn) / law.cohesion;
+  return tension < sliding ? sliding : tension;
+}
+
+template <class T>
+struct StrengthLeft {
+  T part{};                // s(xi)
+  simd::MaskOf<T> opens{}; // opening is the larger part of xi
+};
+
+// r: strength_ratio of this stretch, at least 1.
+template <class T>
+CDEM_INLINE StrengthLeft<T> strength_left(const SofteningLawOf<T>& law, const T& open, const T& shear,
+                                          const T& r) {
+  const T none{}, one = none + 1.0;
+  const T beyond = one - one / r, tn = law.kn * open;
+  const T pressure = none < -tn ? -tn : none;
+  const T held = friction_limit<T>(pressure, law.tan_friction) / law.ks; // m, by friction alone
+  const T slid = shear - held;
+  const T xi_n = (none < open ? open : none) * beyond / law.opening;
+  const T xi_s = (none < slid ? slid : none) * beyond / law.slip;
+  return {softening_curve<T>(law.exponential, root(xi_n * xi_n + xi_s * xi_s)), xi_n >= xi_s};
+}
+
 template <class T>
 struct DamageDrive {
   T damage{};              // 1 - s(xi) / r, 0 inside the strength surface
@@ -142,22 +170,14 @@ struct DamageDrive {
 template <class T>
 CDEM_INLINE DamageDrive<T> damage_drive(const SofteningLawOf<T>& law, const T& open, const T& shear) {
   const T none{}, one = none + 1.0;
-  const T tn = law.kn * open;
-  const T tension = tn / law.tensile_strength,
-          sliding = cohesive_load<T>(law.ks * shear, law.tan_friction, tn) / law.cohesion;
-  const T r = tension < sliding ? sliding : tension;
+  const T r = strength_ratio<T>(law, open, shear);
   const auto beyond_strength = r > one;
   if (!simd::any(beyond_strength))
     return {};
-  const T at = beyond_strength ? r : one, beyond = one - one / at;
-  const T pressure = none < -tn ? -tn : none;
-  const T held = friction_limit<T>(pressure, law.tan_friction) / law.ks; // m, by friction alone
-  const T slid = shear - held;
-  const T xi_n = (none < open ? open : none) * beyond / law.opening;
-  const T xi_s = (none < slid ? slid : none) * beyond / law.slip;
-  const T left = softening_curve<T>(law.exponential, root(xi_n * xi_n + xi_s * xi_s));
-  const T damage = left > none ? one - left / at : one;
-  return {beyond_strength ? damage : none, xi_n >= xi_s};
+  const T at = beyond_strength ? r : one;
+  const StrengthLeft<T> left = strength_left<T>(law, open, shear, at);
+  const T damage = left.part > none ? one - left.part / at : one;
+  return {beyond_strength ? damage : none, left.opens};
 }
 
 template <class T>

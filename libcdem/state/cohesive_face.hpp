@@ -10,10 +10,12 @@ struct CohesiveFace {
   using Vector = std::array<double, 3>;
   Vector plane{};                 // normal of the critical plane, unit
   std::array<Vector, 3> offset{}; // m, per point: w0, added to the relative displacement in the law
+  std::array<double, 3>
+      drawn{}; // a, per point: what is left of the part of w0 that is tension or cohesion, 1 .. 0
   std::array<Vector, 3>
       rest{}; // Pa, per point: what the traction was beyond that of the plane, when it began
-  std::array<double, 3> damage{};  // D, per point
-  std::array<Vector, 3> slip{};    // m, per point, of the damaged part
+  std::array<double, 3> damage{}; // D, per point
+  std::array<Vector, 3> slip{}; // m, per point, of the damaged part; of a separated face also where it closes
   std::array<Vector, 3> preload{}; // N, per corner, on side a: dies away after a node has been freed
 };
 

@@ -74,10 +74,6 @@ Cause likely_cause(const ModelObject& model) {
   if (contacts.deepest > 0)
     return {"contacts that open and close or change over from face to face",
             "take a smaller safety, softer contacts, or damping"};
-  if (simulation.energy().springs < 0)
-    return {"faces that cracked and unload, which give back more than they have stored (docs/theory.md, "
-            "section 22)",
-            "take smaller faces or a larger stiffness_ratio"};
   if (!simulation.breaks().empty())
     return {"bonds that break within a step", "take a smaller safety"};
   return {"a time step too near the stable one", "take a smaller safety or time_step"};
