@@ -91,10 +91,11 @@ private:
   double skins(int of) const {
     return of == mover_ ? 2 * work_.skin[of] : work_.inner_skin[mover_] + work_.inner_skin[of];
   }
+  // m, how far apart the sides of a bond that holds may stand: what is between them is inside the mover, and outside its
+  // tetrahedra.
+  double gap(int of) const { return gives_of(all_.model, work_, work_.movers.block[of], of) * all_.tallest; }
   // m, that the rounding of distances and what bonds give may take, of targets of a mover.
-  double slack(int of) const {
-    return 8 * gives_of(all_.model, work_, work_.movers.block[of], of) * all_.tallest;
-  }
+  double slack(int of) const { return 8 * gap(of); }
 
   void add_corner(const Solid& own, int k, const std::array<Vec3, 4>& x) {
     const int node = all_.model.tets[own.tet][k];
@@ -175,17 +176,17 @@ private:
     const Vec3 spring = weighted(all_.active.facets[source].x, spring_weights(corner));
     for (std::size_t begin = 0, end = 0; begin < around_.size(); begin = end) {
       const int of = around_[begin].mover;
-      const double near = skins(of);
+      const double near = skins(of), close = near + gap(of);
       double least = std::numeric_limits<double>::infinity();
       for (; end < around_.size() && around_[end].mover == of; ++end) {
-        if (around_[end].outside > near)
+        if (around_[end].outside > close)
           continue;
         const int solid = around_[end].solid;
         const double outside = all_.solids[solid].outside(spring);
-        if (outside < least && outside <= near && (of != mover_ || may_meet_any(source, solid)))
+        if (outside < least && outside <= close && (of != mover_ || may_meet_any(source, solid)))
           least = outside;
       }
-      if (least > near)
+      if (least > close)
         continue;
       if (of != mover_ && is_single_tet(all_.model, work_, of)) {
         const auto known =

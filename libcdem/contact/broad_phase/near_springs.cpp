@@ -52,7 +52,9 @@ public:
       const ContactTriangle& to = triangle(found.target);
       const double d = std::sqrt(found.distance2);
       const double deep = std::min(2 * depth_limit(work_, from, to), margins_(from) + margins_(to));
-      if (d <= (found.inside() ? deep + skins : skins))
+      // Those of fragments stand in or beside a tetrahedron of the target. Where the two sides of a crack overlap such a
+      // semi-spring may be outside the nearest triangle and inside the next.
+      if (d <= (found.inside() || !of_springs.empty() ? deep + skins : skins))
         need[corner] = d + 2 * skins;
     }
     for (std::size_t i = begin; i < end; ++i) {

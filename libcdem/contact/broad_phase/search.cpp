@@ -11,6 +11,7 @@
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
+#include "libcdem/joint/softening.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/state/solution_error.hpp"
@@ -78,15 +79,15 @@ Pairs free_pairs(const Model& model, const State& state, const ContactWork& work
   return pairs;
 }
 
-// Over a tet's height: what faces open elastically, and in a cohesive body what they open by as they soften (to 2 G / T with a
-// linear law). Never further than semi-springs stand in from their corners.
+// Over a tet's height: what faces open elastically, and in a cohesive body what they open by as they soften. Never further than semi-springs stand in from their corners.
 double bonds_give(const Model& model, int block) {
   constexpr double elastic = 3e-4;
   const Body& body = model.bodies[model.blocks[block].body];
   double opening = 0; // m
   const auto add = [&](const Joint& joint) {
     if (joint.softening != Softening::none && joint.tensile_strength > 0)
-      opening = std::max(opening, 2 * joint.fracture_energy_1 / joint.tensile_strength);
+      opening = std::max(opening, joint.fracture_energy_1 /
+                                      (joint.tensile_strength * softening_area(joint.softening)));
   };
   if (body.bonding.is_cohesive()) {
     add(body.joint);
