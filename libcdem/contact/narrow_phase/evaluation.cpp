@@ -175,7 +175,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
                               std::array<Nearest, 3>& nearest) {
   const double moved = this->moved(row), from = this->from(row);
   const double gives = gives_of(model_, work_, row.block, row.mover);
-  const bool of_tets = of_several_tets(model_, work_, row.mover);
+  const bool of_tets = of_several_tets(model_, work_, row.mover),
+             gives_way = held_by_bonds(model_, work_, row.mover);
   std::array<NearestOfTets, 3> of_surface;
   std::array<Distances, 3> distances;
   for (std::vector<Nearest>& each : awake_)
@@ -186,7 +187,7 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
     ContactCandidate& candidate = candidates[i];
     const auto target = static_cast<int>(candidate.target);
     const ContactTriangle& triangle = surface_.triangles[target];
-    const bool open = of_tets && open_at(model_, work_, row.source, target);
+    const bool open = gives_way || (of_tets && open_at(model_, work_, row.source, target));
     if (!all && moved < candidate.recheck_distance) {
       recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
       for (int corner = 0; corner < 3; ++corner)
