@@ -12,9 +12,10 @@ namespace cdem {
 namespace {
 
 // How far, m, two edges may go, both together, before a pair that may not begin now can do so: because their common normal
-// lies outside a fan; or because their nearest places stay at the last end of one of their lines.
+// lies outside a fan; or because their nearest places stay at the last end of one of their lines. Before they are nearly
+// parallel, as other rules hold then.
 struct Hindrance {
-  double by_angle = 0, last_end = 0;
+  double by_angle = 0, last_end = 0, parallel = 0;
 };
 
 Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
@@ -26,7 +27,8 @@ Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge
   const auto left = [&](bool ends, double place, double length) {
     return ends ? (drawn_in - std::min(place, 1 - place)) * length * sine / 16 : 0.;
   };
-  return {0, std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)})};
+  return {0, std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)}),
+          std::max(0., 0.25 * (sine - parallel_edges) / (1 / la + 1 / lb))};
 }
 
 // m: until two edges have moved so far they do not touch: either normal lies outside a fan (the Gauss map),
@@ -135,7 +137,8 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
       Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
       if (moves_as_one(e) && moves_as_one(f))
         hindrance.by_angle = std::max(hindrance.by_angle, apart_until(model_, state_, e, f, nearest.way));
-      candidate.recheck_distance = rounded_down(from_here + std::max(hindrance.by_angle, hindrance.last_end));
+      candidate.recheck_distance = rounded_down(
+          from_here + std::min(hindrance.parallel, std::max(hindrance.by_angle, hindrance.last_end)));
       candidate.springs = hindrance.last_end > hindrance.by_angle ? 1 : 0;
     }
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
