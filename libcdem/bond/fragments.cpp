@@ -21,6 +21,19 @@ bool is_bonded(const State& state, std::int64_t batch, int lane) {
   return intact(modes[0][lane]) || intact(modes[1][lane]) || intact(modes[2][lane]);
 }
 
+void tell_of_faces(const Model& model, State& state, const std::vector<char>& blocks) {
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (blocks[chunk.block] == 0)
+      return;
+    FaceStateBatch& face = state.faces[batch];
+    const auto add = [&](bool is_so, std::uint8_t told) { return static_cast<std::uint8_t>(is_so ? told : 0); };
+    const bool gone = handed_over(face, lane);
+    face.told[lane] = add(!is_untouched(state, batch, lane), ToldOfFace::broken) |
+                      add(!is_bonded(state, batch, lane), ToldOfFace::separate) |
+                      add(gone || leaves(face, lane), ToldOfFace::left) | add(gone, ToldOfFace::gone);
+  });
+}
+
 std::vector<int> fragments_of_nodes(const Model& model, const State& state, Joins by) {
   geom::DisjointSets sets(model.node_position.size());
   for (const geom::Tet& tet : model.tets)
@@ -32,8 +45,8 @@ std::vector<int> fragments_of_nodes(const Model& model, const State& state, Join
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     if (at.point != 0)
       return; // once a face
-    const bool joins =
-        by == Joins::untouched ? is_untouched(state, at.batch, at.lane) : is_bonded(state, at.batch, at.lane);
+    const bool joins = by == Joins::told ? (state.faces[at.batch].told[at.lane] & ToldOfFace::broken) == 0
+                                         : is_bonded(state, at.batch, at.lane);
     if (!joins)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, at.lane);

@@ -3,6 +3,7 @@
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/bond/water_work.hpp"
+#include "libgeom/core/disjoint_sets.hpp"
 
 #include <algorithm>
 
@@ -86,9 +87,19 @@ Released release_interfaces(const Model& model, State& state, int threads) {
     if (interface.frame >= 0 && !released(state, interface) && !any_intact(state, interface))
       fate[i] = fate_of(model, state, interface);
   });
-  const bool any_slides = std::find(fate.begin(), fate.end(), Fate::slides) != fate.end();
+  geom::DisjointSets held(model.blocks.size());
+  for (const Interface& interface : model.interfaces)
+    if (interface.frame < 0 || !released(state, interface))
+      held.unite(interface.block_a, interface.block_b);
+  std::vector<char> slides(model.blocks.size(), 0); // per block that stands for those that it is held to
+  const auto slides_beside = [&](std::int64_t i) -> char& {
+    return slides[held.find(model.interfaces[i].block_a)];
+  };
   for (std::int64_t i = 0; i < n; ++i)
-    if (fate[i] == Fate::slides || (fate[i] == Fate::slips && any_slides)) {
+    if (fate[i] == Fate::slides)
+      slides_beside(i) = 1;
+  for (std::int64_t i = 0; i < n; ++i)
+    if (fate[i] == Fate::slides || (fate[i] == Fate::slips && slides_beside(i) != 0)) {
       sum.slid.push_back(static_cast<int>(i));
     } else if (fate[i] == Fate::leaves) {
       const Interface& interface = model.interfaces[i];

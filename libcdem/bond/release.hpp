@@ -3,8 +3,8 @@
 //   1. its springs carry nothing and have opened at every point (by 1e-3 of the interface's size), or
 //   2. its faces have opened like a hinge (by more than 0.02 rad).
 // An interface that has slid, at any of its points, by 0.005 of its size gets new springs where its faces lie on each other
-// now (fracture/renew_interfaces.hpp), and with it all that have slid by half as much: the model, whose contacts are
-// searched anew then, changes seldom.
+// now (fracture/renew_interfaces.hpp), and with it all that have slid by half as much between blocks that interfaces hold
+// together with its own: the model, whose contacts are searched anew then, changes seldom.
 // The pressure of water acts on the faces until the interface is left to contact and the faces have moved relative to
 // each other, at every point, by 0.05 of the size. Then the water is lost.
 #pragma once

@@ -1,5 +1,6 @@
 #include "libcdem/contact/contact_forces.hpp"
 
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
@@ -101,6 +102,8 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
              fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
   if (fragments_due || out_of_skin) {
     begin_search(state, own);
+    tell_of_faces(model, state, own.told_due);
+    std::fill(own.told_due.begin(), own.told_due.end(), 0);
     if (!search_contacts(model, state, own, threads))
       return sums; // something is not a number: the stage's watch will say where
     read_nodes_of_rows(model, own);

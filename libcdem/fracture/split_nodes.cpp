@@ -89,7 +89,8 @@ Freed split_nodes(const Model& model, const State& state, const std::vector<char
   return freed;
 }
 
-std::vector<Node> bring_together(const Model& model, State& state, const std::vector<char>& nodes) {
+std::vector<Node> bring_together(const Model& model, State& state, const std::vector<char>& nodes,
+                                 double strain_step) {
   const MeshData& mesh = model.mesh;
   const std::vector<double>& masses = moving_mass(model, state);
   struct Mean {
@@ -119,6 +120,8 @@ std::vector<Node> bring_together(const Model& model, State& state, const std::ve
     add(1 / mean.mass, mean.velocity, velocity);
     moved[node] = together;
     add(-1, state.displacement[node], moved[node]);
+    add(strain_step, state.velocity[node], moved[node]);
+    add(-strain_step, velocity, moved[node]);
     state.displacement[node] = together;
     state.velocity[node] = velocity;
   });

@@ -19,13 +19,13 @@ struct Freed {
   std::vector<char> anew;    // per node, 1 for the copies of those that were not freed before
 };
 
-// The same model and state with these nodes freed (n_nodes). The stress of the state must belong to the present
-// positions of the nodes.
+// The same model and state with these nodes freed (n_nodes).
 Freed split_nodes(const Model&, const State&, const std::vector<char>& nodes);
 
 // Moves all copies of these nodes (n_nodes; of a node all or none) to their mean place, and gives them their mean velocity,
-// by mass. Returns how far each has moved, m: the stress does not know of it yet.
-std::vector<Node> bring_together(const Model&, State&, const std::vector<char>& nodes);
+// by mass. strain_step: s, by which the stress stands behind the nodes. Returns by how much each has moved more than its
+// velocity now would tell in that time, m: the stress does not know of it yet.
+std::vector<Node> bring_together(const Model&, State&, const std::vector<char>& nodes, double strain_step);
 
 // The same model and state with these nodes freed no more. Their copies have been brought together, and the faces between them
 // hold and carry nothing.

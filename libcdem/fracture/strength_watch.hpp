@@ -49,7 +49,7 @@ public:
   // tets.
   bool is_nearest_of_a_tet(const Model&, const State&, const FaceTets&, const geom::Vec3& face,
                            const geom::Vec3& m) const;
-  // Of the whole strength of the faces of a chunk: a stress that some face has no strength left for is beyond one of them.
+  // Bounds on the whole strength of the faces of a chunk: a stress for which some face is too weak is beyond one of them.
   const std::vector<UtilisationBound>& strength_bounds(std::int64_t chunk) const {
     return bounds_[static_cast<std::size_t>(chunk)].whole;
   }

@@ -220,7 +220,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     }
     if (freed || stage.can_be_left())
       stage.keep_restart_point(loop_state(), previous_force);
-    if (freed || stage.step == moving_steps)
+    if (freed || stage.step <= moving_steps)
       lead_supports(state, stage.work.resolved, stage.step);
     stage.update_contacts();
     masses.follow(context.model, stage.work.contact);

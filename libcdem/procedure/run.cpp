@@ -161,8 +161,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     }
   };
   set_goals();
-  // Supports with a given displacement are there at the end. They are led anew wherever the stage can be left, so that
-  // one that goes on moves them by the same bits.
+  // Supports with a given displacement are there at the end. They are led anew in every step, so that where the stage can be
+  // left, or the model changes, does not matter.
   const auto lead_supports = [&] {
     ResolvedConditions& r = stage.work.resolved;
     if (!r.has_target)
@@ -218,7 +218,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   while (stage.step < clock.steps() && !stopped) {
     const bool renewed = stage.renew_interfaces(),
                freed = (options.breaking && stage.split_nodes(stepping.time_step)) || renewed;
-    const bool joined = options.breaking && !freed && stage.join_nodes();
+    const bool joined = options.breaking && stage.join_nodes();
     if (freed || joined) {
       viscous = viscous_forces(context.model);
       stable_now = context.model.frames.empty() ? 0 : stable_of_all();
@@ -241,8 +241,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
       longest = std::min(longest, stage.longest_step_of_flight());
     if (has_crack_pressure)
       longest = std::min(longest, options.safety * stage.update_crack_pressures(stable_of_mesh));
-    if (shorten(longest) || freed || joined || stage.step % watch_every == 0)
-      lead_supports();
+    shorten(longest);
+    lead_supports();
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
     stage.update_loads(state.time, stepping);

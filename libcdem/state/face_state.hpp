@@ -33,6 +33,15 @@ enum class HandOver : std::uint8_t {
   leaving // they act, and contacts may begin
 };
 
+// What contact has been told of a face, as a sum. It goes by that until it is told again of the faces of the block: when one
+// of them leaves, and where a stage is looked over. So no block is told of for the sake of another.
+struct ToldOfFace {
+  static constexpr std::uint8_t broken = 1, // one of its springs, at least
+      separate = 2,                         // all of them
+      left = 4,                             // HandOver is not held
+      gone = 8;                             // and is done
+};
+
 // State of the three springs of eight faces. The place of a spring in the whole array is (batch * 3 + point) * lanes +
 // lane.
 struct FaceStateBatch {
@@ -40,6 +49,7 @@ struct FaceStateBatch {
   std::uint8_t handed_over[lanes]; // HandOver
   FaceStage stage[lanes];          // of cohesive bodies; holding in others
   std::uint8_t preloaded[lanes];   // 1: CohesiveFace::preload has not died away
+  std::uint8_t told[lanes];        // ToldOfFace
   std::int32_t slip = -1;          // place in State::face_slip; -1: no spring of the batch is broken
 };
 

@@ -7,6 +7,7 @@
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/step/record.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace cdem {
@@ -63,6 +64,12 @@ double ContactUpdate::longest_step_of_flight(const StageContext& context, const 
       {impact_frequency2_, work.resolved.rigid, gravity ? gravity->acceleration.norm() : 0});
 }
 
+void ContactUpdate::go_on(ContactWork& work) {
+  std::fill(work.told_due.begin(), work.told_due.end(), 0);
+  work.history_complete = true;
+  work.anew = false;
+}
+
 void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_surfaces) const {
   if (model.surface.empty())
     return;
@@ -77,7 +84,7 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_
   if (before.neighbours.size() ==
       4 * model.mesh.tet_slot.size()) // tets keep their numbers where nodes are freed
     work.neighbours = std::move(before.neighbours);
-  work.history_complete = true; // those of the step before
+  go_on(work);
   if (same_surfaces)
     keep_rigid_pairs(before, work);
 }

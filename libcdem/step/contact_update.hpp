@@ -21,8 +21,11 @@ public:
   // The same for rigid bodies that are about to meet others: such that an impact keeps its energy.
   double longest_step_of_flight(const StageContext&, const Workspace&) const;
 
+  // As a stage that goes on: State::contacts holds all there are, and no fragment is new.
+  static void go_on(ContactWork&);
   // Contacts are looked for anew from here on, as by a stage that goes on from here: which pairs are skipped is not saved.
-  // same_surfaces: those of before; what is known of rigid pairs goes on, as it changes no force.
+  // They have been evaluated for where the nodes are. same_surfaces: those of before; what is known of rigid pairs goes on,
+  // as it changes no force.
   void start_anew(const Model&, ContactWork&, bool same_surfaces) const;
 
 private:

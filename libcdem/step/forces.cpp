@@ -45,7 +45,6 @@ const Node* block_forces(const Model& model, const State& state, const Workspace
 
 std::vector<Node> inner_forces(const Model& model, const State& state, Workspace& work) {
   State copy = state; // bookkeeping of springs and faces stays as it is
-  work.strain_step = 0;
   work.contact.due = true;
   contact_forces(model, copy, work.contact, 1);
   for (std::size_t c = 0; c < model.point_chunks.size(); ++c)

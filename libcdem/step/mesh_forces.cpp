@@ -84,7 +84,7 @@ ReadAhead reads_of_chunk_before(const Model& model, const State& state, const Wo
   return ahead;
 }
 
-// Of its last batch, those that hold a tet.
+// Counts the lanes of the last batch that hold a tet.
 int last_lanes_of(const MeshChunk& chunk) {
   return static_cast<int>(chunk.tets.size() - (chunk.batches.size() - 1) * lanes);
 }

@@ -105,7 +105,10 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.damping += sums.damping;
     state.spent.plastic += sums.plastic;
     state.spent.external += sums.external;
-    work.contact.fragments_due = work.contact.fragments_due || sums.hands_over;
+    if (sums.hands_over) {
+      work.contact.fragments_due = true;
+      work.contact.told_due[chunk.block] = 1;
+    }
     for (const FaceLeft& left : sums.left)
       state.spent.breaking += take_over(model, state, work.contact,
                                         {left.face + chunk.face_batches.begin * lanes, chunk.block, left});

@@ -1,7 +1,8 @@
 // A point at which a running stage can be left, and continued later with the same bits as without the interruption.
 //
-// Every watch_every steps a stage synchronises everything and copies its state (Stage::keep_restart_point). From there it
-// can go on: the state is in last_good, and what the loop carries besides in the RestartPoint. A stage of several loops
+// Every watch_every steps a stage synchronises everything and copies its state (Stage::keep_restart_point). It also does so
+// where its model has become another one, without synchronising anything: what breaks in one body is no event of others.
+// From there it can go on: the state is in last_good, and what the loop carries besides in the RestartPoint. A stage of several loops
 // (settle, critical_flow) can be left in each of them and where one begins.
 #pragma once
 
@@ -26,6 +27,8 @@ struct RestartPoint {
   std::vector<geom::Vec3> spring_force, stretch, viscous; // N, m, N (n_points)
   OneWayEnergies one_way;                                 // in the log so far
   double contact_step = 0; // s, the last time step: how thick the skins of the search are goes with it
+  double strain_step = 0;         // s, Workspace::strain_step
+  std::vector<std::uint8_t> near; // NearStrength::bits; empty: unknown
   // For a stage of several loops: the data of the procedure around the loops, and the number of the running loop, as
   // the procedure has written them.
   std::string procedure_state;

@@ -87,7 +87,11 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     if (context_.restart_point)
       *context_.restart_point = *from;
     step = from->step;
-    work.contact.history_complete = step > 0;
+    if (step > 0)
+      ContactUpdate::go_on(work.contact);
+    work.strain_step = from->strain_step;
+    if (!from->near.empty())
+      take_near(from->near);
     broken_tension_before_ = from->broken_tension_before;
     broken_shear_before_ = from->broken_shear_before;
     work.bond.spring_force = from->spring_force;
@@ -141,6 +145,8 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
     point.viscous = work.bond.viscous;
   }
   point.contact_step = work.contact.last_step;
+  point.strain_step = work.strain_step;
+  point.near = work.near.crack_known ? near_of_all() : std::vector<std::uint8_t>();
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
   contacts_.start_anew(context_.model, work.contact, true);
@@ -268,17 +274,15 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
   return broken;
 }
 
-// Pieces are told apart anew when a face is handed over, and here: a run that goes on from a checkpoint does so too.
-void Stage::synchronise_to_leave() {
-  if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty())
-    work.contact.fragments_due = work.contact.anew = true;
-  synchronise_contacts(context_.log);
-  broken_between_ += synchronise_stress(context_.log);
-}
-
+// Contact is told of the faces of a block when one of them is handed over, and of all blocks here.
 void Stage::look_over() {
   require_sound_state();
-  synchronise_to_leave();
+  if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty()) {
+    work.contact.fragments_due = work.contact.anew = true;
+    std::fill(work.contact.told_due.begin(), work.contact.told_due.end(), 1);
+  }
+  synchronise_contacts(context_.log);
+  broken_between_ += synchronise_stress(context_.log);
   look_for_escapes();
 }
 

@@ -126,10 +126,11 @@ private:
   void require_sound_state();  // Throws SolutionError
   void keep_last_good();       // of this rank's share
   void give_back();            // memory of what other ranks own
-  void synchronise_to_leave(); // where a run may go on
   void synchronise_contacts(RunLog&);
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
   BegunCracks begin_cracks();               // what share_sums sends
+  std::vector<std::uint8_t> near_of_all() const; // NearStrength::bits of all ranks
+  void take_near(std::vector<std::uint8_t> of_all);
   void change_nodes(Freed);
 
   void advance_bolts();

@@ -28,7 +28,7 @@ bool Stage::split_nodes(double time_step) {
   bool due = std::find(bodies.begin(), bodies.end(), 1) != bodies.end();
   std::vector<char> nodes;
   if (due) {
-    synchronise_to_leave();
+    synchronise_contacts(context_.log); // of the step to come, as their forces are not renumbered
     see_whole();
     nodes = watch_.to_free(model, state, bodies, nullptr, context_.threads, ahead);
     due = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
@@ -40,19 +40,19 @@ bool Stage::split_nodes(double time_step) {
 }
 
 bool Stage::join_nodes() {
-  if (watch_.empty() || !context_.changing || context_.renumbered || step == 0 || step % watch_every != 0)
+  if (watch_.empty() || !context_.changing || context_.renumbered || context_.state.step % watch_every != 0)
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
   if (std::find(model.mesh.freed.begin(), model.mesh.freed.end(), 1) == model.mesh.freed.end())
     return false;
-  // All is where the nodes are: the last step has looked over the state.
   const std::vector<char> nodes = watch_.to_join(model, state, shared_.get(), context_.threads);
   const bool any = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
   if (any) {
+    synchronise_contacts(context_.log);
     see_whole();
     const double before = energy(model, state).total();
-    strain_meshes(model, state, bring_together(model, state, nodes), context_.threads);
+    strain_meshes(model, state, bring_together(model, state, nodes, work.strain_step), context_.threads);
     change_nodes(cdem::join_nodes(model, state, nodes));
     state.spent.cutting += before - energy(model, state).total();
   }
@@ -64,6 +64,9 @@ bool Stage::join_nodes() {
 void Stage::change_nodes(Freed freed) {
   const Model& model = context_.model;
   State& state = context_.state;
+  const bool near_known = work.near.crack_known;
+  const std::vector<std::uint8_t> near = near_of_all();
+  const std::vector<int> slots = model.mesh.tet_slot;
   *context_.changing = std::move(freed.model);
   state = std::move(freed.state);
   if (scale_masses)
@@ -73,6 +76,7 @@ void Stage::change_nodes(Freed freed) {
   Workspace before = std::move(work);
   work = Workspace(model, state, context_.conditions);
   work.damped = before.damped;
+  work.strain_step = before.strain_step;
   work.bond = std::move(before.bond);
   for (std::size_t i = 0; i < work.bond.laws.size(); ++i) // of the new Model
     work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
@@ -81,20 +85,56 @@ void Stage::change_nodes(Freed freed) {
   start_watch();
   gave_back_ = false;
   share();
+  if (near_known) {
+    std::vector<std::uint8_t> now(model.mesh.batches.size(), 0);
+    for (std::size_t tet = 0; tet < slots.size(); ++tet)
+      now[model.mesh.tet_slot[tet] / lanes] |= near[slots[tet] / lanes];
+    take_near(std::move(now));
+  }
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact, false);
   has_shared_nodes_ = has_shared_nodes(model);
   if (!scale_masses)
     carry_water();
   update_external(work.resolved, state.time, moving());
-  if (std::find(freed.anew.begin(), freed.anew.end(), 1) != freed.anew.end())
-    preload_faces(model, state, net_forces(model, state, work), freed.anew);
+  if (std::find(freed.anew.begin(), freed.anew.end(), 1) == freed.anew.end())
+    return;
+  const BondWork bond = work.bond; // what springs lose in the step to come begins with the one before
+  preload_faces(model, state, net_forces(model, state, work), freed.anew);
+  work.bond = bond;
+  contacts_.start_anew(model, work.contact, true);
 }
 
 void Stage::start_watch() {
   work.watch = watch_.empty() ? nullptr : &watch_;
   work.near = {};
   work.near.bits.assign(context_.model.mesh.batches.size(), NearStrength::may_crack);
+}
+
+std::vector<std::uint8_t> Stage::near_of_all() const {
+  const std::vector<std::uint8_t>& bits = work.near.bits;
+  if (!shared_)
+    return bits;
+  const std::vector<std::int64_t>& begin = shared_->shares().batch_begin();
+  const int rank = shared_->part().rank;
+  const std::string own(bits.begin() + begin[rank], bits.begin() + begin[rank + 1]);
+  std::vector<std::uint8_t> all;
+  for (const std::string& of_rank : ranks().gather(own))
+    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  return all;
+}
+
+// Of tets of other ranks nothing will be known in the steps to come.
+void Stage::take_near(std::vector<std::uint8_t> of_all) {
+  work.near.bits = std::move(of_all);
+  work.near.crack_known = true;
+  if (!shared_)
+    return;
+  const std::vector<std::int64_t>& begin = shared_->shares().batch_begin();
+  const auto bits = work.near.bits.begin();
+  const int rank = shared_->part().rank;
+  std::fill(bits, bits + begin[rank], NearStrength::may_crack);
+  std::fill(bits + begin[rank + 1], work.near.bits.end(), NearStrength::may_crack);
 }
 
 BegunCracks Stage::begin_cracks() {
@@ -118,7 +158,7 @@ bool Stage::renew_interfaces() {
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
-  synchronise_to_leave();
+  synchronise_contacts(context_.log);
   see_whole();
   BondWork before = std::move(work.bond);
   if (shared_) {

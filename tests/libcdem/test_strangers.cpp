@@ -22,6 +22,43 @@ cdem::Joint soft_joint() {
   return joint;
 }
 
+enum class Stranger { none, harder, softer };
+
+// A block that breaks on a floor, and another one, which breaks too, on a floor of its own far away.
+System both_fall(cdem::BondKind kind, Stranger stranger) {
+  std::vector<cdem::BodySpec> bodies;
+  std::vector<cdem::PairSpec> pairs;
+  const auto add = [&](const std::string& name, double x, double strength) {
+    cdem::Joint joint = soft_joint();
+    if (kind == cdem::BondKind::springs) {
+      joint.softening = cdem::Softening::none;
+      joint.fracture_energy_1 = joint.fracture_energy_2 = 0;
+    }
+    joint.tensile_strength *= strength;
+    joint.cohesion *= strength;
+    cdem::Bonding bonding = cohesive();
+    bonding.kind = kind;
+    const std::string floor = "floor of " + name;
+    bodies.push_back(
+        meshed(floor, box_at({2, 2, 0.2}, {2, 2, 1}, Mat3::Identity(), {x, 0, -0.101}), {}, soft_rock()));
+    bodies.back().element = cdem::Element::rigid;
+    bodies.push_back(meshed(name, placed(unstructured({0.4, 0.35, 0.3}, 0.2), Mat3::Identity(), {x, 0, 0}),
+                            bonding, soft_rock(), joint));
+    pairs.push_back({name, floor, friction(30)});
+    pairs.push_back({name, name, friction(30)});
+  };
+  add("block", 0, 1);
+  if (stranger != Stranger::none)
+    add("stranger", 100, stranger == Stranger::harder ? 1.05 : 0.7);
+  System s(build(bodies, pairs));
+  for (std::size_t b = 0; b < bodies.size(); b += 2)
+    s.hold(body_of(bodies[b].name.c_str()), "xyz");
+  for (std::size_t b = 1; b < bodies.size(); b += 2)
+    for (int i = s.model.blocks[b].node_begin; i < s.model.blocks[b].node_end; ++i)
+      s.state.velocity[i] = node(b == 1 ? Vec3(1, 0.2, -6) : Vec3(2, 0.2, -5));
+  return s;
+}
+
 // A block with this velocity, m/s, that breaks on the floor. stranger: a coarse body stands far away.
 System fallen(const Vec3& velocity, bool stranger) {
   std::vector<cdem::BodySpec> bodies = {
@@ -46,10 +83,10 @@ Nodes moved(const System& s, int block) {
   return {s.state.displacement.begin() + b.node_begin, s.state.displacement.begin() + b.node_end};
 }
 
-void run(System& s, int steps) {
+void run(System& s, int steps, double step = time_step) {
   cdem::RunOptions options;
   options.steps = steps;
-  options.time_step = time_step;
+  options.time_step = step;
   s.run(options);
 }
 
@@ -99,4 +136,19 @@ TEST_CASE("strangers: faces of a body are freed when one of its own is due", "[c
     CHECK(same_bits(moved(alone, 0), moved(beside, 0)));
   }
   CHECK(freed_of_other > 0);
+}
+
+TEST_CASE("strangers: bodies that break side by side do so as each alone", "[contact][cohesive][breaking]") {
+  const auto kind = GENERATE(cdem::BondKind::cohesive, cdem::BondKind::springs);
+  const auto stranger = GENERATE(Stranger::harder, Stranger::softer);
+  System alone = both_fall(kind, Stranger::none), beside = both_fall(kind, stranger);
+  const double step = kind == cdem::BondKind::springs ? 0.3 * time_step : time_step;
+  for (int stage = 0; stage < 3; ++stage) {
+    run(alone, 270, step);
+    run(beside, 270, step);
+    INFO("stage " << stage << ", broken " << alone.log.breaks.size() << " and " << beside.log.breaks.size());
+    CHECK(same_bits(moved(alone, 1), moved(beside, 1)));
+  }
+  CHECK(alone.log.breaks.size() > 100);
+  CHECK(beside.log.breaks.size() > alone.log.breaks.size() + 50);
 }

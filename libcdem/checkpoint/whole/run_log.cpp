@@ -71,6 +71,9 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
   require(point.breaks <= log.breaks.size(), "restart.breaks", count(point.breaks));
   if (!(point.contact_step >= 0 && point.contact_step < std::numeric_limits<double>::infinity()))
     refuse("restart.contact_step", std::to_string(point.contact_step) + " is out of range");
+  if (!(point.strain_step >= 0 && point.strain_step < std::numeric_limits<double>::infinity()))
+    refuse("restart.strain_step", std::to_string(point.strain_step) + " is out of range");
+  length("restart.near", point.near.size(), model.mesh.batches.size());
   length("restart.previous_force", point.previous_force.size(), model.node_position.size());
   length("restart.spring_force", point.spring_force.size(), model.points.size());
   length("restart.stretch", point.stretch.size(), model.points.size());

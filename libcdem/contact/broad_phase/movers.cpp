@@ -18,11 +18,10 @@ namespace {
 char activity(const State& state, int face) {
   if (face < 0)
     return 1;
-  const FaceStateBatch& batch = state.faces[face / lanes];
-  const int lane = face % lanes;
-  if (handed_over(batch, lane) || leaves(batch, lane))
+  const std::uint8_t told = state.faces[face / lanes].told[face % lanes];
+  if ((told & ToldOfFace::left) != 0)
     return 2;
-  return static_cast<char>(!is_untouched(state, face / lanes, lane));
+  return static_cast<char>((told & ToldOfFace::broken) != 0);
 }
 
 // Numbers the movers by the first of their triangles, and gives every triangle its own.
@@ -117,7 +116,7 @@ void find_joints(const Model& model, const State& state, ContactWork& work) {
     return;
   geom::DisjointSets sets(model.node_position.size());
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (!may_hang(chunk.block) || !is_bonded(state, batch, lane))
+    if (!may_hang(chunk.block) || (state.faces[batch].told[lane] & ToldOfFace::separate) != 0)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
     for (int k = 0; k < 3; ++k)
@@ -200,7 +199,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   std::swap(before.past_others, work.past_others);
   std::swap(before.swing, work.swing);
   std::swap(before.drift, work.drift);
-  work.fragment_of_node = fragments_of_nodes(model, state, Joins::untouched);
+  work.fragment_of_node = fragments_of_nodes(model, state, Joins::told);
   work.fragment.resize(s.triangles.size());
   work.active.resize(s.triangles.size());
   work.broken.assign(model.blocks.size(), 0);

@@ -126,6 +126,7 @@ void start_contact(const Model& model, ContactWork& work) {
     work.restitution = work.restitution || model.joints[law].restitution < 1;
   work.force.assign(model.node_position.size(), Node{});
   work.stiffness.assign(model.node_position.size(), 0.0);
+  work.told_due.assign(model.blocks.size(), 1);
   work.rigid_sums.resize(model.rigid.size());
   work.on_rigid.assign(model.rigid.size(), {});
 }

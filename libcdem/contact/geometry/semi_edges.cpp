@@ -20,7 +20,7 @@ struct Side {
 };
 
 bool is_outside(const State& state, const ContactTriangle& t) {
-  return t.face < 0 || handed_over(state.faces[t.face / lanes], t.face % lanes);
+  return t.face < 0 || (state.faces[t.face / lanes].told[t.face % lanes] & ToldOfFace::gone) != 0;
 }
 
 std::vector<Side> sides_of(const Model& model, const State& state, int block) {
