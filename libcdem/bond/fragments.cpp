@@ -2,6 +2,8 @@
 
 #include "libgeom/core/disjoint_sets.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 namespace {
 
@@ -21,12 +23,30 @@ bool is_bonded(const State& state, std::int64_t batch, int lane) {
   return intact(modes[0][lane]) || intact(modes[1][lane]) || intact(modes[2][lane]);
 }
 
-void tell_of_faces(const Model& model, State& state, const std::vector<char>& blocks) {
+namespace {
+
+ToldOfBonds bonds_of(const State& state, const Interface& interface) {
+  const auto begin = state.bond_mode.begin() + interface.point_begin,
+             end = state.bond_mode.begin() + interface.point_end;
+  const auto whole = std::count_if(begin, end, intact);
+  return whole == end - begin ? ToldOfBonds::whole
+         : whole > 0          ? ToldOfBonds::some_broken
+                              : ToldOfBonds::all_broken;
+}
+
+} // namespace
+
+void tell_of_bonds(const Model& model, State& state, const std::vector<char>& blocks) {
+  for (const Interface& interface : model.interfaces)
+    if (interface.frame >= 0 && blocks[interface.block_a] != 0)
+      state.told_bonds[interface.frame] = static_cast<std::uint8_t>(bonds_of(state, interface));
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
     if (blocks[chunk.block] == 0)
       return;
     FaceStateBatch& face = state.faces[batch];
-    const auto add = [&](bool is_so, std::uint8_t told) { return static_cast<std::uint8_t>(is_so ? told : 0); };
+    const auto add = [&](bool is_so, std::uint8_t told) {
+      return static_cast<std::uint8_t>(is_so ? told : 0);
+    };
     const bool gone = handed_over(face, lane);
     face.told[lane] = add(!is_untouched(state, batch, lane), ToldOfFace::broken) |
                       add(!is_bonded(state, batch, lane), ToldOfFace::separate) |
@@ -39,9 +59,12 @@ std::vector<int> fragments_of_nodes(const Model& model, const State& state, Join
   for (const geom::Tet& tet : model.tets)
     for (int k = 1; k < 4; ++k)
       sets.unite(tet[0], tet[k]);
-  for (std::size_t p = 0; p < model.points.size(); ++p)
-    if (intact(state.bond_mode[p]))
+  for (std::size_t p = 0; p < model.points.size(); ++p) {
+    const int frame = model.interfaces[model.points[p].interface].frame;
+    if (by == Joins::told && frame >= 0 ? told_of(state, frame) != ToldOfBonds::all_broken
+                                        : intact(state.bond_mode[p]))
       sets.unite(model.points[p].node_a[0], model.points[p].node_b[0]);
+  }
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     if (at.point != 0)
       return; // once a face

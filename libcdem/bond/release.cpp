@@ -1,5 +1,6 @@
 #include "libcdem/bond/release.hpp"
 
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/bond/water_work.hpp"
@@ -91,22 +92,24 @@ Released release_interfaces(const Model& model, State& state, int threads) {
   for (const Interface& interface : model.interfaces)
     if (interface.frame < 0 || !released(state, interface))
       held.unite(interface.block_a, interface.block_b);
-  std::vector<char> slides(model.blocks.size(), 0); // per block that stands for those that it is held to
-  const auto slides_beside = [&](std::int64_t i) -> char& {
-    return slides[held.find(model.interfaces[i].block_a)];
-  };
+  std::vector<char> slides(model.blocks.size(), 0),
+      leaves = slides; // per block that stands for those held to it
+  const auto held_by = [&](std::int64_t i) { return held.find(model.interfaces[i].block_a); };
   for (std::int64_t i = 0; i < n; ++i)
     if (fate[i] == Fate::slides)
-      slides_beside(i) = 1;
+      slides[held_by(i)] = 1;
   for (std::int64_t i = 0; i < n; ++i)
-    if (fate[i] == Fate::slides || (fate[i] == Fate::slips && slides_beside(i) != 0)) {
+    if (fate[i] == Fate::slides || (fate[i] == Fate::slips && slides[held_by(i)] != 0)) {
       sum.slid.push_back(static_cast<int>(i));
     } else if (fate[i] == Fate::leaves) {
       const Interface& interface = model.interfaces[i];
       sum.stored += stored_in(model, state, interface);
       state.released[interface.frame] = 1;
+      leaves[held_by(i)] = 1;
       ++sum.interfaces;
     }
+  for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
+    sum.blocks.push_back(leaves[held.find(block)]);
   if (!state.water_pressure.empty())
     sum.water = drain(model, state);
   return sum;
@@ -123,11 +126,9 @@ std::vector<std::pair<int, int>> held_pairs(const Model& model, const State& sta
 
 std::vector<char> blocks_with_broken_bonds(const Model& model, const State& state) {
   std::vector<char> loose(model.blocks.size(), 0);
-  for (std::size_t p = 0; p < model.points.size(); ++p)
-    if (!is_intact(state.bond_mode[p])) {
-      const Interface& interface = model.interfaces[model.points[p].interface];
+  for (const Interface& interface : model.interfaces)
+    if (interface.frame >= 0 && told_of(state, interface.frame) != ToldOfBonds::whole)
       loose[interface.block_a] = loose[interface.block_b] = 1;
-    }
   return loose;
 }
 

@@ -19,9 +19,10 @@ inline constexpr double slid_too_far = 0.005, slid_enough = 0.0025;
 
 struct Released {
   std::int64_t interfaces = 0;
-  double stored = 0;     // J, that their springs held and hold no more
-  double water = 0;      // J, that water that is gone had done by opening them
-  std::vector<int> slid; // interfaces that stay and are to get new springs, ascending
+  double stored = 0;        // J, that their springs held and hold no more
+  double water = 0;         // J, that water that is gone had done by opening them
+  std::vector<int> slid;    // interfaces that stay and are to get new springs, ascending
+  std::vector<char> blocks; // per block, 1 for all that interfaces held together with one of those that leave
 };
 
 // Writes State::released, and State::water_pressure where water is gone.
@@ -31,7 +32,7 @@ Released release_interfaces(const Model&, State&, int threads);
 // leaves them alone.
 std::vector<std::pair<int, int>> held_pairs(const Model&, const State&);
 
-// Per block: some of its interfaces has a bond that is not whole.
+// Per block: contact has been told that some of its interfaces has a bond that is not whole.
 std::vector<char> blocks_with_broken_bonds(const Model&, const State&);
 
 } // namespace cdem

@@ -38,6 +38,11 @@ void check_faces(const State& state) {
   }
 }
 
+void check_told_bonds(const State& state) {
+  for (const std::uint8_t told : state.told_bonds)
+    require_below("told_bonds", told, static_cast<std::size_t>(ToldOfBonds::all_broken) + 1);
+}
+
 void check_contacts(const Model& model, const State& state) {
   const std::size_t triangles = model.surface.triangles.size();
   const auto triangle = [&](const char* field, std::int64_t t) {
@@ -117,6 +122,7 @@ void require_fits(const Model& model, const State& state) {
   for (const std::uint8_t escaped : state.escaped)
     require_below("escaped", escaped, escapes);
   check_faces(state);
+  check_told_bonds(state);
   check_contacts(model, state);
   check_excavation(model, state);
 }

@@ -102,7 +102,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
              fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
   if (fragments_due || out_of_skin) {
     begin_search(state, own);
-    tell_of_faces(model, state, own.told_due);
+    tell_of_bonds(model, state, own.told_due);
     std::fill(own.told_due.begin(), own.told_due.end(), 0);
     if (!search_contacts(model, state, own, threads))
       return sums; // something is not a number: the stage's watch will say where

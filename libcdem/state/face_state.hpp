@@ -42,6 +42,9 @@ struct ToldOfFace {
       gone = 8;                             // and is done
 };
 
+// The same of an interface between blocks that move far.
+enum class ToldOfBonds : std::uint8_t { whole, some_broken, all_broken };
+
 // State of the three springs of eight faces. The place of a spring in the whole array is (batch * 3 + point) * lanes +
 // lane.
 struct FaceStateBatch {

@@ -26,7 +26,7 @@ struct RestartPoint {
   // Those of the BondWork: what broken and softening springs lose is counted from the step before.
   std::vector<geom::Vec3> spring_force, stretch, viscous; // N, m, N (n_points)
   OneWayEnergies one_way;                                 // in the log so far
-  double contact_step = 0; // s, the last time step: how thick the skins of the search are goes with it
+  double contact_step = 0;        // s, the last time step: how thick the skins of the search are goes with it
   double strain_step = 0;         // s, Workspace::strain_step
   std::vector<std::uint8_t> near; // NearStrength::bits; empty: unknown
   // For a stage of several loops: the data of the procedure around the loops, and the number of the running loop, as

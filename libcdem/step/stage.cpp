@@ -274,11 +274,17 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
   return broken;
 }
 
-// Contact is told of the faces of a block when one of them is handed over, and of all blocks here.
+// Contact is told of the bonds of a block when a face is handed over, or an interface left to contact, of it or of those that
+// are held to it, and of all blocks here.
 void Stage::look_over() {
   require_sound_state();
-  if (!context_.state.face_slip.empty() || !context_.model.mesh.sides.empty()) {
-    work.contact.fragments_due = work.contact.anew = true;
+  const std::vector<BreakRow>& breaks = context_.log.breaks;
+  const bool faces = !context_.state.face_slip.empty() || !context_.model.mesh.sides.empty(),
+             interfaces = !context_.model.frames.empty() && !breaks.empty() &&
+                          breaks.back().stage == context_.number && breaks.back().step + watch_every >= step;
+  if (faces || interfaces) {
+    work.contact.fragments_due = true;
+    work.contact.anew = work.contact.anew || faces;
     std::fill(work.contact.told_due.begin(), work.contact.told_due.end(), 1);
   }
   synchronise_contacts(context_.log);
@@ -374,6 +380,8 @@ void Stage::release_parted_blocks() {
   context_.state.spent.breaking += released.stored;
   context_.state.spent.external += released.water;
   work.contact.fragments_due = work.contact.fragments_due || released.interfaces > 0;
+  for (std::size_t block = 0; block < work.contact.told_due.size(); ++block)
+    work.contact.told_due[block] |= released.blocks[block];
 }
 
 void Stage::poll(const StepReport& step_report) {

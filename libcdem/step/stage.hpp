@@ -121,14 +121,14 @@ private:
   void share(); // with other ranks, when there are any
   void start_watch();
   void warn_of_idle_ranks() const;
-  void share_anew();           // where the loads of ranks are uneven
-  bool left_alone() const;     // by an error that the other ranks, which are elsewhere, do not have
-  void require_sound_state();  // Throws SolutionError
-  void keep_last_good();       // of this rank's share
-  void give_back();            // memory of what other ranks own
+  void share_anew();          // where the loads of ranks are uneven
+  bool left_alone() const;    // by an error that the other ranks, which are elsewhere, do not have
+  void require_sound_state(); // Throws SolutionError
+  void keep_last_good();      // of this rank's share
+  void give_back();           // memory of what other ranks own
   void synchronise_contacts(RunLog&);
-  std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
-  BegunCracks begin_cracks();               // what share_sums sends
+  std::int64_t synchronise_stress(RunLog&);      // returns how many springs broke, of which the log is told
+  BegunCracks begin_cracks();                    // what share_sums sends
   std::vector<std::uint8_t> near_of_all() const; // NearStrength::bits of all ranks
   void take_near(std::vector<std::uint8_t> of_all);
   void change_nodes(Freed);

@@ -145,3 +145,34 @@ TEST_CASE("joined nodes: a bar whose end was torn off shares nodes but at the cr
   CHECK(freed_nodes(s) > 0);
   CHECK(freed_nodes(s) < 0.7 * freed);
 }
+
+TEST_CASE("joined nodes: a run of two stages joins them at the steps of one", "[cohesive][breaking]") {
+  constexpr int every = 200; // steps between looks at what may be joined
+  int joined = 0;
+  for (const std::int64_t first : {std::int64_t{0}, std::int64_t{130}}) {
+    System s = swinging_bar(concrete_body(ragged_bar()), 0.95);
+    run_for(s, half_period);
+    slow_down(s, 0.4);
+    std::int64_t freed = freed_nodes(s);
+    REQUIRE(freed > 0);
+    cdem::RunOptions options;
+    options.callback_every = 1;
+    options.callback = [&] {
+      const std::int64_t now = freed_nodes(s);
+      if (now < freed) { // at the head of the step that has just been made
+        ++joined;
+        CHECK((s.state.step - 1) % every == 0);
+      }
+      freed = now;
+    };
+    if (first > 0) {
+      options.steps = first;
+      s.run(options);
+      options.steps = 0;
+    }
+    options.duration = long_after;
+    s.run(options);
+    CHECK(freed_nodes(s) == 0);
+  }
+  CHECK(joined >= 2);
+}

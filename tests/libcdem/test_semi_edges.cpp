@@ -1,4 +1,5 @@
 // Semi-edges that broken faces bring: those of the pieces, as if they had never been one.
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
@@ -126,9 +127,10 @@ Impact impact(System s) {
 
 using Segment = std::array<double, 6>; // ends in order, m, to a micrometre
 
-std::vector<Segment> edges_of(const System& s) {
+std::vector<Segment> edges_of(System s) {
   cdem::ContactWork work;
   cdem::start_contact(s.model, work);
+  cdem::tell_of_bonds(s.model, s.state, work.told_due);
   cdem::find_fragments(s.model, s.state, work);
   cdem::find_semi_edges(s.model, s.state, work);
   CHECK(std::is_sorted(work.edges.begin(), work.edges.end(),

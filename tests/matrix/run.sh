@@ -11,10 +11,11 @@
 #   baseline avx2          another instruction set than the widest
 #   stop stop_ranks2       stopped by a signal in a callback, then resumed; with another number of ranks
 #   stranger               a body that touches nothing stands far away: each body ends as it does alone
+#   breaking_stranger      the same with a body that is torn there
 # A difference names seed and way, and is minimised: features that can be left out while the difference stays are named.
 set -u
 program=$1 first=$2 last=$3
-ways=${4:-empty1 empty3 empty40 read files ranks2 ranks3 threads2 baseline avx2 stop stop_ranks2 stranger}
+ways=${4:-empty1 empty3 empty40 read files ranks2 ranks3 threads2 baseline avx2 stop stop_ranks2 stranger breaking_stranger}
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
@@ -66,7 +67,7 @@ one_way() { # seed, way, folder, more...
     baseline | avx2) CDEM_INSTRUCTION_SET=$way run "$folder" --threads 1 "${common[@]}" ;;
     stop) stopped "$folder" 1 --set "stop_at=$((3 + seed % 30))" "${common[@]}" ;;
     stop_ranks2) stopped "$folder" 2 --set "stop_at=$((2 + seed * 7 % 40))" "${common[@]}" ;;
-    stranger) run "$folder" --threads 1 --set way=stranger "${common[@]}" ;;
+    *stranger) run "$folder" --threads 1 --set "way=$way" "${common[@]}" ;;
   esac
 }
 
@@ -81,6 +82,7 @@ same() { # seed, way, more... : the way gives what the plain one gives
 compare() {
   local lines='^(MODEL|REFUSED|STATE|ENERGY|END)'
   [[ $1 != stranger ]] || lines='^(MODEL|BODY|END)'
+  [[ $1 != breaking_stranger ]] || lines='^(MODEL|BODY\s|END)'
   # A run that was stopped prints lines again when it goes on: each counts once.
   diff <(grep -E "$lines" "$work/a" | awk '!seen[$0]++') <(grep -E "$lines" "$work/b" | awk '!seen[$0]++') \
     >"$work/difference"
