@@ -106,6 +106,7 @@ double depth_limit(const ContactWork& work, const ContactTriangle& a, const Cont
 
 void start_contact(const Model& model, ContactWork& work) {
   const ContactSurface& s = model.surface;
+  work.told_due.assign(model.blocks.size(), 1);
   if (s.empty())
     return;
   assert(s.triangles.size() <= last_contact_triangle / 2); // edges are fewer than three to two triangles
@@ -126,7 +127,6 @@ void start_contact(const Model& model, ContactWork& work) {
     work.restitution = work.restitution || model.joints[law].restitution < 1;
   work.force.assign(model.node_position.size(), Node{});
   work.stiffness.assign(model.node_position.size(), 0.0);
-  work.told_due.assign(model.blocks.size(), 1);
   work.rigid_sums.resize(model.rigid.size());
   work.on_rigid.assign(model.rigid.size(), {});
 }
