@@ -37,8 +37,7 @@ void take_names(const Model& built, Model& then) {
 } // namespace
 
 CDEM_ARCHIVE(RestartPoint, step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force,
-             spring_force, stretch, viscous, one_way, contact_step,
-             strain_step, near, procedure_state)
+             spring_force, stretch, viscous, one_way, contact_step, strain_step, near, procedure_state)
 
 std::string Simulation::Impl::saved() const {
   if (!at_start.empty())

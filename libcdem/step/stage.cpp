@@ -289,7 +289,8 @@ void Stage::look_over() {
   }
   synchronise_contacts(context_.log);
   broken_between_ += synchronise_stress(context_.log);
-  if (work.contact.fragments_due) // faces have been handed over: a stage that goes on from here would not know
+  if (work.contact
+          .fragments_due) // faces have been handed over: a stage that goes on from here would not know
     synchronise_contacts(context_.log);
   look_for_escapes();
 }

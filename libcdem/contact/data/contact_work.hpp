@@ -248,9 +248,9 @@ struct ContactWork {
   // m, per block, a part of what is usual at its own surface: so deep contacts may begin, and the least reach of a row.
   std::vector<double> shallow;
   std::vector<double> bonds_give; // per block, over a tet's height: how far bonds let edges part
-  bool fragments_due = true;   // faces have broken, or fragments are not known: a search is due with them
-  std::vector<char> told_due; // per block: that search is told of its faces first; with fragments_due
-  bool due = true; // something moved since the contacts were looked at
+  bool fragments_due = true;      // faces have broken, or fragments are not known: a search is due with them
+  std::vector<char> told_due;     // per block: that search is told of its faces first; with fragments_due
+  bool due = true;                // something moved since the contacts were looked at
   // State::contacts holds all there are, but for fragments. Not so where a stage begins: what stands in what then is
   // anybody's doing.
   bool history_complete = false;
@@ -258,7 +258,7 @@ struct ContactWork {
   bool blocks_due = false;   // a search is due of all movers, not only of fragments that left their skins
   bool pairs_due = false;    // a search is due of rigid pairs that left their skins
   bool all_due = false;      // a search of all movers is due in which no rigid pair keeps its rows
-  bool anew = true; // a search goes on as if nothing of fragments had been known
+  bool anew = true;          // a search goes on as if nothing of fragments had been known
   // In this step contacts begin at any depth, since it is not known which fragments are new. Otherwise only contacts of
   // movers that have changed do.
   bool any_depth_begins = false;
