@@ -13,9 +13,9 @@ struct GrowPass;
 // Which faces may break in a pass: those that meet the crack's front (any, while there is no crack), or any.
 enum class BreakWhere { front, anywhere };
 
-// By what stress a block at the tip is judged and its planes are turned: its own mean (Han 2010), or that of
-// all elements around the tip, weighted (fracture/tip_field.hpp); the tension threshold has no meaning then.
-enum class JudgedBy { block, tip };
+// By what stress a block at the tip is judged and its planes are turned: that of all elements around
+// the tip, weighted (fracture/tip_field.hpp; the tension threshold has no meaning then), or its own mean (Han 2010).
+enum class JudgedBy { tip, block };
 
 struct GrowOptions {
   int passes = 3;           // at most this many (the paper's three), >= 1

@@ -15,7 +15,7 @@
 
 namespace cdem {
 
-enum class WaveTheory { airy, stokes, stream_function };
+enum class WaveTheory { stream_function, stokes, airy };
 
 struct WaveGiven {
   WaveTheory theory = WaveTheory::stream_function;

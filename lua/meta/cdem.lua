@@ -521,17 +521,17 @@ local cdem = {}
 ---@class cdem.Plasticity
 ---@field cohesion number Pa
 ---@field friction_angle number deg
----@field dilation_angle number deg
----@field tensile_strength number Pa
+---@field tensile_strength number Pa: what is beyond the tip of the cone, cohesion / tan(friction_angle), does not act
+---@field dilation_angle number deg: at most friction_angle
 local Plasticity = {}
 
 ---Made by cdem.elastic.
 ---@class cdem.Material
----@field youngs_modulus number Pa
----@field poissons_ratio number
+---@field youngs_modulus number Pa: Young's modulus E
+---@field poissons_ratio number Poisson's ratio nu
 ---@field density number kg/m3
----@field viscosity number N s/m4
----@field stiffness_damping number s: beta of Rayleigh damping
+---@field viscosity number N s/m4: damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping
+---@field stiffness_damping number s: beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular frequency w has beta w / 2 of critical damping, motion as a rigid body none
 ---@field shear_modulus number Pa: G = E / 2(1 + nu)
 ---@field p_wave_modulus number Pa: lambda + 2 G
 local Material = {}
@@ -543,15 +543,15 @@ local Material = {}
 ---@field cohesion number Pa
 ---@field friction_angle number deg
 ---@field tensile_strength number Pa
----@field softening string
----@field fracture_energy_1 number J/m2
----@field fracture_energy_2 number J/m2
----@field thickness_ratio number
----@field thickness? number m
----@field normal_stiffness? number Pa/m
----@field shear_stiffness? number Pa/m
----@field stiffness_damping number s
----@field restitution number
+---@field softening "none"|"linear"|"exponential" how the strength falls once it is reached; none: brittle. It needs both fracture energies, and tensile_strength at most cohesion / tan(friction angle)
+---@field fracture_energy_1 number J/m2: G_I, work per crack area that opening to separation takes, elastic part included
+---@field fracture_energy_2 number J/m2: G_II, the same for slip, beyond the work of friction
+---@field thickness_ratio number equivalent thickness of the joint over the block size (cube root of its volume), which sets the stiffness E/L and G/L
+---@field thickness? number m: equivalent thickness itself; wins over the ratio. Contacts of meshes take it too
+---@field normal_stiffness? number Pa/m: instead of E/L
+---@field shear_stiffness? number Pa/m: instead of G/L
+---@field stiffness_damping number s: beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, as long as their faces have not parted; refused where it would do nothing
+---@field restitution number coefficient of restitution of the contact of bodies that move far: speed after over speed before an impact, as far as the contact and not waves within the bodies decide it; 1: the contact loses nothing but by friction
 local Joint = {}
 
 ---Convex blocks, made by the builders; #assembly is the number of blocks.

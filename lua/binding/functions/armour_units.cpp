@@ -1,6 +1,6 @@
 // Armour units by mass or height, and the slope they lie on.
 #include "lua/binding/functions/physical_fields.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -53,27 +53,52 @@ std::vector<Field> unit_fields(std::vector<Field> more) {
   return fields;
 }
 
+const Record<geom::AccropodeShape> accropode_shape{
+    {{choice("shape", {"slender", "stocky"}).standard("slender")},
+     {share("width", "of the end bars and the core along x: 0.42 or 0.386"), &geom::AccropodeShape::width},
+     {share("bar", "of an end bar along y: 0.33 or 0.30"), &geom::AccropodeShape::bar},
+     {share("core", "of the core and the middle bar along z: 0.42"), &geom::AccropodeShape::core},
+     {share("length", "of the middle bar along x: 1 or 0.80"), &geom::AccropodeShape::length},
+     {share("taper", "size of a bar's end over that at the core: 0.70 or 0.95"),
+      &geom::AccropodeShape::taper},
+     {number("corner").at_least(0).doc("cut off a bar's edges, over the shorter side of its section: "
+                                       "0.20; 0: square bars, which make larger tetrahedra"),
+      &geom::AccropodeShape::corner}}};
+
+const Record<geom::DolosShape> dolos_shape{
+    {{share("tip", "width of a fluke at its ends, over the height").standard(), &geom::DolosShape::tip},
+     {share("waist", "width of the shank, over the height").standard(), &geom::DolosShape::waist},
+     {share("root", "width of a fluke at its middle, over the height").standard(), &geom::DolosShape::root}}};
+
+const Record<geom::TetrapodShape> tetrapod_shape{
+    {{share("tip", "diameter of a leg at its end, over the height").standard(), &geom::TetrapodShape::tip},
+     {share("root", "diameter of a leg where it meets the others").standard(), &geom::TetrapodShape::root}}};
+
+const Record<geom::AntiferShape> antifer_shape{
+    {{share("bottom", "width of the lower face, over the height").standard(), &geom::AntiferShape::bottom},
+     {share("top", "width of the upper face").standard(), &geom::AntiferShape::top},
+     {number("groove").at_least(0).standard().doc("radius of the grooves; 0: none"),
+      &geom::AntiferShape::groove}}};
+
+const Record<geom::CubipodShape> cubipod_shape{
+    {{share("cube", "side of the cube").standard(), &geom::CubipodShape::cube},
+     {share("root", "width of a pyramid on the cube").standard(), &geom::CubipodShape::root},
+     {share("tip", "width of its end").standard(), &geom::CubipodShape::tip}}};
+
 Value accropode(Session&, Object*, const Arguments& a) {
   geom::AccropodeShape shape =
       a.text("shape") == "stocky" ? geom::AccropodeShape::stocky() : geom::AccropodeShape::slender();
-  for (const auto& [name, member] :
-       {std::pair<const char*, double geom::AccropodeShape::*>{"width", &geom::AccropodeShape::width},
-        {"bar", &geom::AccropodeShape::bar},
-        {"core", &geom::AccropodeShape::core},
-        {"length", &geom::AccropodeShape::length},
-        {"taper", &geom::AccropodeShape::taper},
-        {"corner", &geom::AccropodeShape::corner}})
-    shape.*member = a.optional_number(name).value_or(shape.*member);
+  accropode_shape.read(a, shape);
   return made_unit(a, "accropode", [&](double height) { return geom::accropode(height, shape); });
 }
 
 Value dolos(Session&, Object*, const Arguments& a) {
-  const geom::DolosShape shape{a.number("tip"), a.number("waist"), a.number("root")};
+  const geom::DolosShape shape = dolos_shape.read(a);
   return made_unit(a, "dolos", [&](double height) { return geom::dolos(height, shape); });
 }
 
 Value tetrapod(Session&, Object*, const Arguments& a) {
-  const geom::TetrapodShape shape{a.number("tip"), a.number("root")};
+  const geom::TetrapodShape shape = tetrapod_shape.read(a);
   return made_unit(a, "tetrapod", [&](double height) { return geom::tetrapod(height, shape); });
 }
 
@@ -82,12 +107,12 @@ Value cube(Session&, Object*, const Arguments& a) {
 }
 
 Value antifer(Session&, Object*, const Arguments& a) {
-  const geom::AntiferShape shape{a.number("bottom"), a.number("top"), a.number("groove")};
+  const geom::AntiferShape shape = antifer_shape.read(a);
   return made_unit(a, "antifer cube", [&](double height) { return geom::antifer(height, shape); });
 }
 
 Value cubipod(Session&, Object*, const Arguments& a) {
-  const geom::CubipodShape shape{a.number("cube"), a.number("root"), a.number("tip")};
+  const geom::CubipodShape shape = cubipod_shape.read(a);
   return made_unit(a, "cubipod", [&](double height) { return geom::cubipod(height, shape); });
 }
 
@@ -106,40 +131,20 @@ void bind_armour_units(Module& m) {
   m.add("accropode",
         "An accropode-like unit, V = 0.34 H^3: two end bars along z, a middle bar along x, a core. Centred "
         "on the origin. Proportions are fractions of the height; those left out are the shape's.",
-        unit_fields(
-            {choice("shape", {"slender", "stocky"}).standard("slender"),
-             share("width", "of the end bars and the core along x: 0.42 or 0.386"),
-             share("bar", "of an end bar along y: 0.33 or 0.30"),
-             share("core", "of the core and the middle bar along z: 0.42"),
-             share("length", "of the middle bar along x: 1 or 0.80"),
-             share("taper", "size of a bar's end over that at the core: 0.70 or 0.95"),
-             number("corner").at_least(0).doc("cut off a bar's edges, over the shorter side of its section: "
-                                              "0.20; 0: square bars, which make larger tetrahedra")}),
-        accropode, "cdem.Solid");
+        unit_fields(accropode_shape.fields()), accropode, "cdem.Solid");
   m.add("dolos",
         "A dolos without fillets, V = 0.163 C^3: octagonal flukes along z and y at the ends of a shank along "
         "x.",
-        unit_fields({share("tip", "width of a fluke at its ends, over the height").standard(0.20),
-                     share("waist", "width of the shank, over the height").standard(0.32),
-                     share("root", "width of a fluke at its middle, over the height").standard(0.364)}),
-        dolos, "cdem.Solid");
+        unit_fields(dolos_shape.fields()), dolos, "cdem.Solid");
   m.add("tetrapod", "A tetrapod, V = 0.28 H^3: four conical legs, one of them up.",
-        unit_fields({share("tip", "diameter of a leg at its end, over the height").standard(0.302),
-                     share("root", "diameter of a leg where it meets the others").standard(0.470)}),
-        tetrapod, "cdem.Solid");
+        unit_fields(tetrapod_shape.fields()), tetrapod, "cdem.Solid");
   m.add("cube", "A plain cube.", unit_fields({}), cube, "cdem.Solid");
   m.add("antifer", "An antifer cube, V = 1.0247 H^3: its sides lean in and have a round groove each.",
-        unit_fields({share("bottom", "width of the lower face, over the height").standard(1.086),
-                     share("top", "width of the upper face").standard(1.005),
-                     number("groove").at_least(0).standard(0.1047).doc("radius of the grooves; 0: none")}),
-        antifer, "cdem.Solid");
+        unit_fields(antifer_shape.fields()), antifer, "cdem.Solid");
   m.add("cubipod",
         "A cube with a truncated pyramid on each side, as the Cubipod has; V = 0.544 H^3, H from tip to tip. "
         "Proportions are fractions of the height, and ours.",
-        unit_fields({share("cube", "side of the cube").standard(0.74),
-                     share("root", "width of a pyramid on the cube").standard(0.48),
-                     share("tip", "width of its end").standard(0.36)}),
-        cubipod, "cdem.Solid");
+        unit_fields(cubipod_shape.fields()), cubipod, "cdem.Solid");
   m.add("slope", "A wedge that rises along +x from x = 0, z = 0; y from -width/2 to width/2.",
         {number("gradient").above(0).required().doc("rise over run: 1/1.5"),
          number("length").above(0).unit("m").required().doc("along x"),

@@ -18,21 +18,55 @@ using geom::Vec3;
 
 constexpr double degree = 3.14159265358979323846 / 180;
 
-Bolt steel_of(const Arguments& a) {
-  Bolt bolt;
-  bolt.segments = a.count("segments");
-  bolt.area = a.number("area");
-  bolt.youngs_modulus = a.number("youngs_modulus");
-  if (const auto yield = a.optional_number("yield_stress"))
-    bolt.yield_force = *yield * bolt.area;
-  bolt.grout_stiffness = a.number("grout_stiffness");
-  if (const auto strength = a.optional_number("grout_strength"))
-    bolt.grout_strength = *strength;
-  bolt.pretension = a.number("pretension");
-  bolt.free_length = a.number("free_length");
-  bolt.plate = a.flag("plate");
-  return bolt;
-}
+const Record<Bolt> bolt_record{
+    {{vec3("from").unit("m").doc("of one bolt: the collar")},
+     {vec3("to").unit("m").doc("its far end")},
+     {record("pattern", {vec3("centre").unit("m").required().doc("a point of the axis they fan out from"),
+                         choice("axis", {"x", "y", "z"}).standard("y"),
+                         number("radius").above(0).unit("m").required().doc("from the axis to the collars"),
+                         number("length").above(0).unit("m").required(),
+                         list("angles", number_type())
+                             .required()
+                             .doc("degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
+                         list("at", number_type()).required().doc("places along the axis, m")})
+          .doc("fans of bolts, instead of from and to")},
+     {number("area")
+          .above(0)
+          .unit("m2")
+          .required()
+          .doc("of the steel")
+          .doubted(0.1, largest_quantity, "A bar of 25 mm has 4.9e-4"),
+      &Bolt::area},
+     {modulus_field("youngs_modulus").standard(200e9).doc("of the steel"), &Bolt::youngs_modulus},
+     {number("yield_stress")
+          .above(0)
+          .unit("Pa")
+          .doc("of the steel; it does not yield when left out")
+          .doubted(0, 1e7, "Steel has 2e8 to 2e9")},
+     {number("grout_stiffness")
+          .above(0)
+          .standard(1e9)
+          .unit("N/m2")
+          .doc("force per length of bolt and displacement past the rock")
+          .doubted(0, 1e5, "Grout has 1e8 to 1e10"),
+      &Bolt::grout_stiffness},
+     {number("grout_strength")
+          .above(0)
+          .unit("N/m")
+          .doc("force per length; it does not slip when left out")
+          .doubted(0, 1e3, "Grout has 1e5 to 1e6"),
+      &Bolt::grout_strength},
+     {number("pretension")
+          .at_least(0)
+          .standard()
+          .unit("N")
+          .doc("of the plate once the bolt is tight")
+          .doubted(0, 1e3, "A bolt has 1e4 to 1e6; 100 kN is 1e5"),
+      &Bolt::pretension},
+     {flag("plate").standard().doc("the collar is fast to the rock"), &Bolt::plate},
+     {number("free_length").at_least(0).standard().unit("m").doc("without grout, from the collar on"),
+      &Bolt::free_length},
+     {integer("segments").within(1, 1000).standard(), &Bolt::segments}}};
 
 // Fans of bolts from a line: each at `angles` in the plane across the axis, at each of the places along it.
 std::vector<std::pair<Vec3, Vec3>> ends_of(const Arguments& pattern) {
@@ -64,7 +98,9 @@ Value bolts(Session& session, ModelObject& model, const Arguments& a) {
     ends = ends_of(*pattern);
   } else
     ends.emplace_back(a.vec3("from"), a.vec3("to"));
-  Bolt bolt = steel_of(a);
+  Bolt bolt = bolt_record.read(a);
+  if (const auto yield = a.optional_number("yield_stress"))
+    bolt.yield_force = *yield * bolt.area;
   all_or_none(session, model, ends.size(), [&](Simulation& simulation, std::size_t i) {
     std::tie(bolt.from, bolt.to) = ends[i];
     try {
@@ -130,50 +166,7 @@ void bind_bolts(Module& m) {
           "bolts",
           "Sets grouted bolts or cables into the rock as it stands now: steel that yields, grout that slips, "
           "along the axis only. Both ends of each must lie in the rock.",
-          {vec3("from").unit("m").doc("of one bolt: the collar"), vec3("to").unit("m").doc("its far end"),
-           record("pattern",
-                  {vec3("centre").unit("m").required().doc("a point of the axis they fan out from"),
-                   choice("axis", {"x", "y", "z"}).standard("y"),
-                   number("radius").above(0).unit("m").required().doc("from the axis to the collars"),
-                   number("length").above(0).unit("m").required(),
-                   list("angles", number_type())
-                       .required()
-                       .doc("degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
-                   list("at", number_type()).required().doc("places along the axis, m")})
-               .doc("fans of bolts, instead of from and to"),
-           number("area")
-               .above(0)
-               .unit("m2")
-               .required()
-               .doc("of the steel")
-               .doubted(0.1, largest_quantity, "A bar of 25 mm has 4.9e-4"),
-           modulus_field("youngs_modulus").standard(200e9).doc("of the steel"),
-           number("yield_stress")
-               .above(0)
-               .unit("Pa")
-               .doc("of the steel; it does not yield when left out")
-               .doubted(0, 1e7, "Steel has 2e8 to 2e9"),
-           number("grout_stiffness")
-               .above(0)
-               .standard(1e9)
-               .unit("N/m2")
-               .doc("force per length of bolt and displacement past the rock")
-               .doubted(0, 1e5, "Grout has 1e8 to 1e10"),
-           number("grout_strength")
-               .above(0)
-               .unit("N/m")
-               .doc("force per length; it does not slip when left out")
-               .doubted(0, 1e3, "Grout has 1e5 to 1e6"),
-           number("pretension")
-               .at_least(0)
-               .standard(0.0)
-               .unit("N")
-               .doc("of the plate once the bolt is tight")
-               .doubted(0, 1e3, "A bolt has 1e4 to 1e6; 100 kN is 1e5"),
-           flag("plate").standard(false).doc("the collar is fast to the rock"),
-           number("free_length").at_least(0).standard(0.0).unit("m").doc("without grout, from the collar on"),
-           integer("segments").within(1, 1000).standard(10)},
-          bolts, "integer", "how many")
+          bolt_record.fields(), bolts, "integer", "how many")
       .replayed(Replay::again);
   model.add("bolt_forces", "Forces along the bolts, one table per node.", {}, bolt_forces,
             "cdem.BoltState[]");

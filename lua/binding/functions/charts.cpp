@@ -1,6 +1,6 @@
 // Line charts: of a model's histories, and of any lists.
 #include "lua/binding/functions/picture_fields.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/text/nearest.hpp"
 
@@ -15,40 +15,32 @@ namespace {
 
 using geom::InputError;
 
-std::vector<Field> chart_fields() {
-  return {drawing_field(),
-          text("title").doc("_{...} and ^{...} set sub- and superscripts"),
-          text("x_label").doc(
-              "ending in an SI unit, \"opening (m)\", the axis is shown with the prefix that suits: mm"),
-          text("y_label"),
-          text("right_label").doc("of the axis on the right"),
-          flag("log_x").standard(false),
-          flag("log_y").standard(false),
-          flag("log_right").standard(false),
-          list("x_range", number_type(), 2),
-          list("y_range", number_type(), 2),
-          list("right_range", number_type(), 2),
-          choice("legend", {"auto", "top_left", "top_right", "bottom_left", "bottom_right", "none"})
-              .standard("auto"),
-          size_field(),
-          dpi_field()};
-}
+const Record<ChartOptions> chart_record{
+    {{drawing_field()},
+     {text("title").doc("_{...} and ^{...} set sub- and superscripts"), &ChartOptions::title},
+     {text("x_label").doc(
+          "ending in an SI unit, \"opening (m)\", the axis is shown with the prefix that suits: mm"),
+      &ChartOptions::x_label},
+     {text("y_label"), &ChartOptions::y_label},
+     {text("right_label").doc("of the axis on the right"), &ChartOptions::right_label},
+     {flag("log_x").standard(), &ChartOptions::log_x},
+     {flag("log_y").standard(), &ChartOptions::log_y},
+     {flag("log_right").standard(), &ChartOptions::log_right},
+     {list("x_range", number_type(), 2)},
+     {list("y_range", number_type(), 2)},
+     {list("right_range", number_type(), 2)},
+     {choice("legend", {"auto", "top_left", "top_right", "bottom_left", "bottom_right", "none"})
+          .standard("auto"),
+      &ChartOptions::legend},
+     {size_field()},
+     {dpi_field(), &ChartOptions::dpi}}};
 
 ChartOptions chart_options(const Arguments& a) {
-  ChartOptions options;
-  options.title = a.text_or("title", "");
-  options.x_label = a.text_or("x_label", "");
-  options.y_label = a.text_or("y_label", "");
-  options.right_label = a.text_or("right_label", "");
-  options.log_x = a.flag("log_x");
-  options.log_y = a.flag("log_y");
-  options.log_right = a.flag("log_right");
+  ChartOptions options = chart_record.read(a);
   options.x_range = limits_of(a, "x_range");
   options.y_range = limits_of(a, "y_range");
   options.right_range = limits_of(a, "right_range");
-  options.legend = a.text("legend");
   options.size = size_of(a, false);
-  options.dpi = a.number("dpi");
   return options;
 }
 
@@ -197,13 +189,13 @@ void bind_charts(Module& m) {
                                   flag("right_axis").standard(false).doc("read y on the right"),
                                   choice("style", {"line", "dashed", "points", "both"}).standard("line"),
                                   colour_field()};
-  std::vector<Field> lists = chart_fields();
+  std::vector<Field> lists = chart_record.fields();
   lists.insert(lists.begin() + 1, list("series", record_type(series)).required());
   m.add("chart", "Line chart of lists of numbers.", lists, chart_of_lists)
       .replayed(Replay::recorded)
       .by_rank_0();
 
-  std::vector<Field> histories = chart_fields();
+  std::vector<Field> histories = chart_record.fields();
   histories.insert(
       histories.begin() + 1,
       {list("y", text_type()).required().doc("histories, e.g. {\"residual\"}; model:history() has all"),
@@ -214,7 +206,7 @@ void bind_charts(Module& m) {
            "two to eight of them")});
   m.the_class("Model").add("chart", "Line chart of histories.", histories, chart_of_histories).by_rank_0();
 
-  std::vector<Field> fragments = chart_fields();
+  std::vector<Field> fragments = chart_record.fields();
   for (Field& field : fragments)
     if (field.name == "log_x")
       field = flag("log_x").standard(true);

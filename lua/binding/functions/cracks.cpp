@@ -1,5 +1,5 @@
 // Results of fracture: area and energy of cracks, their tip and speed.
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 
 #include "libcdem/material/wave_speeds.hpp"
@@ -20,20 +20,31 @@ constexpr double usual_reach = 1.5;
 // Default of `window`, over the time that the crack has run.
 constexpr double usual_window = 0.1;
 
-Table row_of(const Cracks& some) {
-  Table row;
-  for (const std::string& quantity : crack_quantities())
-    row.named[quantity] = crack_quantity(some, quantity);
-  return row;
-}
+const Record<Cracks> crack_sum{
+    "CrackSum",
+    "How much has cracked, and what it took.",
+    {{number("area").unit("m2").doc("of all cracks: the three below together"), &Cracks::area},
+     {number("tension_area").unit("m2").doc("broken in tension"), &Cracks::tension},
+     {number("shear_area").unit("m2").doc("broken in shear"), &Cracks::shear},
+     {number("damaged_area").unit("m2").doc("damage times area of what softens and is not broken"),
+      &Cracks::damaged},
+     {number("projected_area")
+          .unit("m2")
+          .doc("area as the planes that failed see it: a cohesive crack takes its fracture energy on this "
+               "one"),
+      &Cracks::projected},
+     {number("energy").unit("J").doc("taken by breaking and damage"),
+      [](const Cracks& c) { return c.energy.tension + c.energy.shear; }},
+     {number("tension_energy").unit("J"), [](const Cracks& c) { return c.energy.tension; }},
+     {number("shear_energy").unit("J"), [](const Cracks& c) { return c.energy.shear; }}}};
 
 Value cracks(Session&, ModelObject& model, const Arguments&) {
   const CracksByBody found = model.simulation.cracks();
-  Table row = row_of(found.all()), bodies;
+  Table row = crack_sum(found.all()), bodies;
   for (std::size_t b = 0; b < found.bodies.size(); ++b)
-    bodies.named[model.body_names[b]] = row_of(found.bodies[b]);
+    bodies.named[model.body_names[b]] = crack_sum(found.bodies[b]);
   row.named["bodies"] = std::move(bodies);
-  row.named["between"] = row_of(found.between);
+  row.named["between"] = crack_sum(found.between);
   return row;
 }
 
@@ -76,6 +87,18 @@ Value rayleigh_of(const ModelObject& model, const Arguments& a) {
                                       : Value();
 }
 
+const Record<CrackTipRow> tip_row{
+    "CrackTip",
+    "The tip of a crack along a path: lists with an entry for each step at which it moved on.",
+    {{number("time").unit("s"), &CrackTipRow::time},
+     {number("position").unit("m").doc("along the path"), &CrackTipRow::position},
+     {number("speed").unit("m/s").doc(
+          "least-squares slope over the window; nan where no time passes, as in a relaxation"),
+      &CrackTipRow::speed},
+     {vec3("place").unit("m").doc("of the broken point, undeformed"), &CrackTipRow::place},
+     {number("stage"), &CrackTipRow::stage},
+     {number("step").doc("within the stage"), &CrackTipRow::step}}};
+
 Value crack_tip(Session&, ModelObject& model, const Arguments& a) {
   const auto& breaks = model.simulation.breaks();
   CrackLine path{corners_of(model, a), a.number("width"), 0};
@@ -86,66 +109,35 @@ Value crack_tip(Session&, ModelObject& model, const Arguments& a) {
   const double window = a.optional_number("window").value_or(usual_window * ran);
   if (window > 0)
     add_speeds(rows, window);
-  Table lists[6]; // stage, step, time, position, speed, place
   double fastest = 0;
-  for (const CrackTipRow& row : rows) {
-    lists[0].items.emplace_back(row.stage);
-    lists[1].items.emplace_back(row.step);
-    lists[2].items.emplace_back(row.time);
-    lists[3].items.emplace_back(row.position);
-    lists[4].items.emplace_back(row.speed);
-    lists[5].items.emplace_back(row.place);
+  for (const CrackTipRow& row : rows)
     fastest = std::fmax(fastest, row.speed);
-  }
-  Table result{{"reach", path.reach}, {"window", window}, {"fastest", fastest}};
-  static const char* const names[] = {"stage", "step", "time", "position", "speed", "place"};
-  for (int i = 0; i < 6; ++i)
-    result.named[names[i]] = std::move(lists[i]);
+  Table result = tip_row.columns(rows);
+  result.named.insert({{"reach", path.reach}, {"window", window}, {"fastest", fastest}});
   if (!rows.empty())
     result.named["tip"] = Table{{"position", rows.back().position}, {"place", rows.back().place}};
   result.named["rayleigh_speed"] = rayleigh_of(model, a);
   return result;
 }
 
-std::vector<Field> crack_fields() {
-  return {
-      number("area").unit("m2").required().doc("of all cracks: the three below together"),
-      number("tension_area").unit("m2").required().doc("broken in tension"),
-      number("shear_area").unit("m2").required().doc("broken in shear"),
-      number("damaged_area").unit("m2").required().doc("damage times area of what softens and is not broken"),
-      number("projected_area")
-          .unit("m2")
-          .required()
-          .doc("area as the planes that failed see it: a cohesive crack takes its fracture energy on this "
-               "one"),
-      number("energy").unit("J").required().doc("taken by breaking and damage"),
-      number("tension_energy").unit("J").required(),
-      number("shear_energy").unit("J").required()};
-}
-
 void bind_crack_records(Module& m) {
-  std::vector<Field> all = crack_fields();
-  m.records.push_back({"CrackSum", "How much has cracked, and what it took.", all});
-  all.push_back(plain("bodies").required().doc("a cdem.CrackSum for each body, by its name"));
-  all.push_back(record("between", crack_fields()).required().doc("in joints between two bodies"));
-  m.records.push_back({"Cracks", "How much has cracked, of the model and of each body.", all});
-  m.records.push_back(
-      {"CrackTip",
-       "The tip of a crack along a path: lists with an entry for each step at which it moved on.",
-       {list("time", number_type(), 0).unit("s").required(),
-        list("position", number_type(), 0).unit("m").required().doc("along the path"),
-        list("speed", number_type(), 0)
-            .unit("m/s")
-            .required()
-            .doc("least-squares slope over the window; nan where no time passes, as in a relaxation"),
-        list("place", vec3_type(), 0).unit("m").required().doc("of the broken point, undeformed"),
-        list("stage", number_type(), 0).required(),
-        list("step", number_type(), 0).required().doc("within the stage"),
-        record("tip", {number("position").unit("m").required(), vec3("place").unit("m").required()})
-            .doc("the last of them; nil where nothing broke at the start of the path"),
-        number("fastest").unit("m/s").required().doc("largest speed; 0 where there is none"),
-        number("rayleigh_speed").unit("m/s").doc("of the body, which no crack in tension can exceed"),
-        number("reach").unit("m").required(), number("window").unit("s").required()}});
+  m.records.push_back(crack_sum);
+  RecordType all = crack_sum, tip = tip_row.of_columns();
+  all.name = "Cracks";
+  all.doc = "How much has cracked, of the model and of each body.";
+  all.fields.push_back(record("between", all.fields).required().doc("in joints between two bodies"));
+  all.fields.insert(all.fields.end() - 1,
+                    plain("bodies").required().doc("a cdem.CrackSum for each body, by its name"));
+  m.records.push_back(std::move(all));
+  tip.fields =
+      tip.fields +
+      std::vector<Field>{
+          record("tip", {number("position").unit("m").required(), vec3("place").unit("m").required()})
+              .doc("the last of them; nil where nothing broke at the start of the path"),
+          number("fastest").unit("m/s").required().doc("largest speed; 0 where there is none"),
+          number("rayleigh_speed").unit("m/s").doc("of the body, which no crack in tension can exceed"),
+          number("reach").unit("m").required(), number("window").unit("s").required()};
+  m.records.push_back(std::move(tip));
 }
 
 void bind_tip(Class& model) {

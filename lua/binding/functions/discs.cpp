@@ -1,10 +1,10 @@
 // Discs of fracture networks at random, and statistics of networks.
 #include "lua/binding/functions/discs.hpp"
 
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/objects.hpp"
+#include "lua/binding/schema/angles.hpp"
 
 #include "libgeom/assembly/random_discs.hpp"
 #include "libgeom/core/error.hpp"
@@ -15,47 +15,43 @@ namespace {
 
 using geom::InputError;
 
-geom::Box box_of(const Arguments& a) {
-  const auto given = a.record("box");
-  geom::Box box;
-  box.min = given->vec3("min");
-  box.max = given->vec3("max");
-  return box;
-}
+const Record<geom::RadiusOptions> radius_record{
+    {{choice("law", {"constant", "exponential", "lognormal", "power"}).standard(), &geom::RadiusOptions::law},
+     {number("mean").above(0).unit("m").doc("of constant, exponential and lognormal"),
+      &geom::RadiusOptions::mean},
+     {number("deviation").above(0).unit("m").doc("standard deviation, of lognormal"),
+      &geom::RadiusOptions::deviation},
+     {number("exponent").within(0.01, 20).doc("a of power: the density falls as radius^-(a + 1)"),
+      &geom::RadiusOptions::exponent},
+     {number("smallest").above(0).unit("m").doc("of power"), &geom::RadiusOptions::smallest},
+     {number("largest").above(0).unit("m").doc("of power"), &geom::RadiusOptions::largest}}};
 
-geom::RadiusOptions radius_of(const Arguments& given, const std::string& path) {
-  geom::RadiusOptions radius;
+const Record<geom::RandomDiscs> disc_set{
+    {{text("set").required().doc("its name"), &geom::RandomDiscs::set},
+     {number("dip").within(0, 90).in_degrees().required().doc("of the mean plane"), &geom::RandomDiscs::dip},
+     {number("dip_direction").within(0, 360).in_degrees().required(), &geom::RandomDiscs::dip_direction},
+     {number("kappa").above(0).doc(
+          "concentration of Fisher's distribution, some 10 to 100; all discs are parallel when left out"),
+      &geom::RandomDiscs::kappa},
+     {record("radius", radius_record.fields()).required(), &geom::RandomDiscs::radius, radius_record},
+     {number("p30").above(0).unit("1/m3").doc("discs per volume"), &geom::RandomDiscs::p30},
+     {number("p32").above(0).unit("1/m").doc("instead: area of discs per volume")}}};
+
+// Names what a law takes where something else is given.
+void require_radius(const Arguments& given, const std::string& path) {
   const std::string& law = given.text("law");
   const bool power = law == "power", lognormal = law == "lognormal";
-  radius.law = power                  ? geom::RadiusLaw::power
-               : lognormal            ? geom::RadiusLaw::lognormal
-               : law == "exponential" ? geom::RadiusLaw::exponential
-                                      : geom::RadiusLaw::constant;
-  const auto need = [&](const char* name, bool wanted, double& to) {
+  for (const auto& [name, wanted] : {std::pair("mean", !power),
+                                     {"deviation", lognormal},
+                                     {"exponent", power},
+                                     {"smallest", power},
+                                     {"largest", power}})
     if (given.has(name) != wanted)
       throw InputError(path + "." + name + (wanted ? ": missing; the law \"" : ": not of the law \"") + law +
                        "\", which takes " +
                        (power       ? "exponent, smallest and largest"
                         : lognormal ? "mean and deviation"
                                     : "mean"));
-    if (wanted)
-      to = given.number(name);
-  };
-  need("mean", !power, radius.mean);
-  need("deviation", lognormal, radius.deviation);
-  need("exponent", power, radius.exponent);
-  need("smallest", power, radius.smallest);
-  need("largest", power, radius.largest);
-  return radius;
-}
-
-Value disc_table(const geom::Disc& disc) {
-  return Table{{"id", disc.id},
-               {"centre", disc.centre},
-               {"dip", degrees(disc.dip)},
-               {"dip_direction", degrees(disc.dip_direction)},
-               {"radius", disc.radius},
-               {"set", disc.set}};
 }
 
 Value random_discs(Session& session, Object*, const Arguments& a) {
@@ -63,26 +59,19 @@ Value random_discs(Session& session, Object*, const Arguments& a) {
   std::vector<geom::RandomDiscs> sets;
   for (const Arguments& given : a.records("sets")) {
     const std::string path = "sets[" + std::to_string(sets.size() + 1) + "]";
-    geom::RandomDiscs set;
-    set.set = given.text("set");
-    set.dip = radians(given.number("dip"));
-    set.dip_direction = radians(given.number("dip_direction"));
-    set.kappa = given.optional_number("kappa");
-    set.radius = radius_of(*given.record("radius"), path + ".radius");
+    require_radius(*given.record("radius"), path + ".radius");
+    geom::RandomDiscs set = disc_set.read(given);
     if (given.has("p30") == given.has("p32"))
       throw InputError(path + ": give one of p30 (discs per m3) and p32 (m2 of joint per m3)");
-    set.p30 =
-        given.has("p30") ? given.number("p30") : given.number("p32") / (pi * geom::mean_square(set.radius));
+    if (given.has("p32"))
+      set.p30 = given.number("p32") / (pi * geom::mean_square(set.radius));
     sets.push_back(std::move(set));
     dips.push_back(given.number("dip"));
     directions.push_back(given.number("dip_direction"));
   }
   warn_of_radians(session, "random_discs: dip and dip_direction of sets", dips, directions);
-  Values rows;
-  for (const geom::Disc& disc :
-       geom::random_discs(sets, box_of(a), static_cast<std::uint64_t>(a.integer("seed"))))
-    rows.push_back(disc_table(disc));
-  return Table::list(std::move(rows));
+  return disc_record().list(
+      geom::random_discs(sets, a.box("box"), static_cast<std::uint64_t>(a.integer("seed"))));
 }
 
 const Record<geom::DiscStatistics> statistics_record{
@@ -91,10 +80,8 @@ const Record<geom::DiscStatistics> statistics_record{
     {{text("set"), &geom::DiscStatistics::set},
      {integer("count").doc("discs in all"), &geom::DiscStatistics::count},
      {number("mean_radius").unit("m"), &geom::DiscStatistics::mean_radius},
-     {number("dip").unit("deg").doc("of the mean plane"),
-      [](const geom::DiscStatistics& s) { return degrees(s.dip); }},
-     {number("dip_direction").unit("deg"),
-      [](const geom::DiscStatistics& s) { return degrees(s.dip_direction); }},
+     {number("dip").in_degrees().doc("of the mean plane"), &geom::DiscStatistics::dip},
+     {number("dip_direction").in_degrees(), &geom::DiscStatistics::dip_direction},
      {number("kappa").doc("of Fisher, (n - 1) / (n - R); nil for fewer than three discs or parallel ones"),
       &geom::DiscStatistics::kappa},
      {number("p30").unit("1/m3").doc("centres in the box over its volume"), &geom::DiscStatistics::p30},
@@ -105,7 +92,7 @@ const Record<geom::DiscStatistics> statistics_record{
 
 Value disc_statistics(Session& session, Object*, const Arguments& a) {
   geom::DiscWindow window;
-  window.box = box_of(a);
+  window.box = a.box("box");
   if (const auto plane = a.record("plane")) {
     if (!(plane->vec3("normal").norm() > 0))
       throw InputError("plane.normal", describe(plane->value("normal")), "longer than zero");
@@ -116,10 +103,6 @@ Value disc_statistics(Session& session, Object*, const Arguments& a) {
   return statistics_record.list(geom::disc_statistics(discs_of(session, a), window));
 }
 
-Field box_field() {
-  return record("box", {vec3("min").unit("m").required(), vec3("max").unit("m").required()}).required();
-}
-
 } // namespace
 
 std::vector<geom::Disc> discs_of(Session& session, const Arguments& a) {
@@ -127,12 +110,8 @@ std::vector<geom::Disc> discs_of(Session& session, const Arguments& a) {
   std::vector<double> dips, directions; // deg
   for (const Arguments& given : a.records("discs")) {
     geom::Disc disc;
-    disc.id = given.has("id") ? given.integer("id") : static_cast<std::int64_t>(discs.size()) + 1;
-    disc.centre = given.vec3("centre");
-    disc.dip = radians(given.number("dip"));
-    disc.dip_direction = radians(given.number("dip_direction"));
-    disc.radius = given.number("radius");
-    disc.set = given.text("set");
+    disc.id = static_cast<std::int64_t>(discs.size()) + 1;
+    disc_record().read(given, disc);
     discs.push_back(disc);
     dips.push_back(given.number("dip"));
     directions.push_back(given.number("dip_direction"));
@@ -141,45 +120,33 @@ std::vector<geom::Disc> discs_of(Session& session, const Arguments& a) {
   return discs;
 }
 
-std::vector<Field> disc_fields() {
-  return {integer("id").at_least(0).doc(
-              "discs cut in the order of their ids; its place in the list when left out"),
-          vec3("centre").unit("m").required(),
-          number("dip").within(0, 90).unit("deg").required(),
-          number("dip_direction").within(0, 360).unit("deg").required(),
-          number("radius").above(0).unit("m").required(),
-          text("set").required().doc("name of its faces, for their law")};
+const Record<geom::Disc>& disc_record() {
+  static const Record<geom::Disc> members{
+      {{integer("id").at_least(0).doc(
+            "discs cut in the order of their ids; its place in the list when left out"),
+        &geom::Disc::id},
+       {vec3("centre").unit("m").required(), &geom::Disc::centre},
+       {number("dip").within(0, 90).in_degrees().required(), &geom::Disc::dip},
+       {number("dip_direction").within(0, 360).in_degrees().required(), &geom::Disc::dip_direction},
+       {number("radius").above(0).unit("m").required(), &geom::Disc::radius},
+       {text("set").required().doc("name of its faces, for their law"), &geom::Disc::set}}};
+  return members;
 }
 
 void bind_discs(Module& m) {
-  const std::vector<Field> radius{
-      choice("law", {"constant", "exponential", "lognormal", "power"}).standard("constant"),
-      number("mean").above(0).unit("m").doc("of constant, exponential and lognormal"),
-      number("deviation").above(0).unit("m").doc("standard deviation, of lognormal"),
-      number("exponent").within(0.01, 20).doc("a of power: the density falls as radius^-(a + 1)"),
-      number("smallest").above(0).unit("m").doc("of power"),
-      number("largest").above(0).unit("m").doc("of power")};
-  const std::vector<Field> set{
-      text("set").required().doc("its name"),
-      number("dip").within(0, 90).unit("deg").required().doc("of the mean plane"),
-      number("dip_direction").within(0, 360).unit("deg").required(),
-      number("kappa").above(0).doc(
-          "concentration of Fisher's distribution, some 10 to 100; all discs are parallel when left out"),
-      record("radius", radius).required(),
-      number("p30").above(0).unit("1/m3").doc("discs per volume"),
-      number("p32").above(0).unit("1/m").doc("instead: area of discs per volume")};
   m.add("random_discs",
         "A fracture network at random, for cut_by_discs: discs with centres even in a box, orientation after "
         "Fisher, and a law of radii. Take the box larger than the rock by the largest radius, or the discs "
         "thin out at its sides.",
-        {list("sets", record_type(set)).required(), box_field().doc("of the centres"),
+        {list("sets", record_type(disc_set.fields())).required(), box("box").required().doc("of the centres"),
          integer("seed").at_least(0).standard(1).doc("the same seed gives the same discs on every machine")},
         random_discs, "table[]", "id, centre, dip, dip_direction, radius and set of each");
   m.records.push_back(statistics_record);
   m.add("disc_statistics",
         "Intensities and mean orientation of discs, a row for each set: of cdem.random_discs, or as "
         "surveyed, of cdem.read_discs.",
-        {list("discs", record_type(disc_fields())).required(), box_field().doc("the volume"),
+        {list("discs", record_type(disc_record().fields())).required(),
+         box("box").required().doc("the volume"),
          record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
              .doc("for p21: a rock face or the floor of a drift"),
          record("line", {vec3("from").unit("m").required(), vec3("to").unit("m").required()})

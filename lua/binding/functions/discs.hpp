@@ -1,7 +1,7 @@
 // Discs as scripts give them.
 #pragma once
 
-#include "lua/binding/schema/schema.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libgeom/assembly/discs.hpp"
@@ -10,7 +10,7 @@ namespace cdem::script {
 
 struct Session;
 
-std::vector<Field> disc_fields();
+const Record<geom::Disc>& disc_record();
 std::vector<geom::Disc> discs_of(Session&, const Arguments&); // of the list "discs"
 
 } // namespace cdem::script

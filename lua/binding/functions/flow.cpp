@@ -26,12 +26,19 @@ std::function<double(double)> velocity_of(const Arguments& a, double now) {
   return velocity;
 }
 
+Field water_density() {
+  return water_density_field("water_density").standard(Flow().water_density).doc("sea water by default");
+}
+
+const Record<Flow> stream{
+    {{vec3("direction").required().doc("of the flow; made a unit vector"), &Flow::direction},
+     {place("on").standard(std::string("all")).doc("outer faces that may take it: one place")},
+     {water_density(), &Flow::water_density},
+     {flag("new_faces").standard().doc("faces opened by cracks take the pressure too"), &Flow::new_faces}}};
+
 Flow flow_of(const ModelObject& model, const Arguments& a) {
-  Flow flow;
+  Flow flow = stream.read(a);
   flow.on = one_selection(model, a.value("on"), "on");
-  flow.direction = a.vec3("direction");
-  flow.water_density = a.number("water_density");
-  flow.new_faces = a.flag("new_faces");
   return flow;
 }
 
@@ -98,65 +105,100 @@ const char* third(double fraction) {
   return fraction < 1.0 / 3 ? "root" : fraction < 2.0 / 3 ? "waist" : "top";
 }
 
-// Where the bonds broke, as fractions of the model's box; along `held` from that side on.
-void add_place(const geom::Box& box, const std::string& held, const CriticalFlowResult& r, Table& row) {
-  const geom::Vec3 fraction = (r.place - box.min).cwiseQuotient(box.size());
-  row.named["place"] = r.place;
-  row.named["place_fraction"] = fraction;
-  if (held.empty())
-    return;
-  const double along = fraction[held[0] - 'x'], from_held = held[1] == '-' ? along : 1 - along;
-  row.named["height_fraction"] = from_held;
-  row.named["part"] = std::string(third(from_held));
-}
+// What scripts get: where the bonds broke in the model's box, and along `held` from that side on.
+struct FlowFound : CriticalFlowResult {
+  geom::Box box;
+  std::string held;
 
-Value flow_result(const CriticalFlowResult& r, const geom::Box& box, const std::string& held) {
-  static const char* const reasons[] = {"fragment", "compliance", "limit"};
-  Table row{{"reason", std::string(reasons[static_cast<int>(r.reason)])},
-            {"velocity", r.velocity},
-            {"pressure", r.pressure},
-            {"time", r.time},
-            {"period", r.period},
-            {"compliance", r.compliance},
-            {"fragments", fragment.list(r.fragments)},
-            {"broken_area", r.broken_area},
-            {"broken_tension", r.broken_tension},
-            {"broken_shear", r.broken_shear},
-            {"steps", r.steps},
-            {"curve", flow_sample.list(r.curve)}};
-  if (r.broken_area > 0) {
-    add_place(box, held, r, row);
-    row.named["first_break_velocity"] = r.first_break_velocity;
-    row.named["first_break_pressure"] = r.first_break_pressure;
-    row.named["first_break_place"] = r.first_break_place;
+  bool broke() const { return broken_area > 0; }
+  geom::Vec3 fraction() const { return (place - box.min).cwiseQuotient(box.size()); }
+  std::optional<double> height() const {
+    if (!broke() || held.empty())
+      return std::nullopt;
+    const double along = fraction()[held[0] - 'x'];
+    return held[1] == '-' ? along : 1 - along;
   }
-  return row;
-}
+  template <class X>
+  std::optional<X> if_broken(const X& x) const {
+    return broke() ? std::optional<X>(x) : std::nullopt;
+  }
+};
+
+const Record<FlowFound> flow_record{
+    "CriticalFlowResult",
+    "What the search for the critical flow came to.",
+    {{choice("reason", {"fragment", "compliance", "limit"})
+          .doc("a piece came off; the compliance grew; or max_velocity was reached"),
+      &FlowFound::reason},
+     {number("velocity").unit("m/s"), &FlowFound::velocity},
+     {number("pressure").unit("Pa"), &FlowFound::pressure},
+     {number("time").unit("s"), &FlowFound::time},
+     {number("period").unit("s").doc("of the first mode"), &FlowFound::period},
+     {number("compliance").unit("m/Pa").doc("of the unbroken solid at rest"), &FlowFound::compliance},
+     {list("fragments", object_type("Fragment"), 0).doc("largest first"), &FlowFound::fragments, fragment},
+     {number("broken_area").unit("m2"), &FlowFound::broken_area},
+     {vec3("place").unit("m").doc("centroid of the broken area; nil when nothing broke"),
+      [](const FlowFound& r) { return r.if_broken(r.place); }},
+     {vec3("place_fraction").doc("the same in parts of the model's box, 0 to 1"),
+      [](const FlowFound& r) { return r.if_broken(r.fraction()); }},
+     {number("height_fraction").doc("along the held side's normal, from that side on"), &FlowFound::height},
+     {choice("part", {"root", "waist", "top"}).doc("third of that height"),
+      [](const FlowFound& r) { return r.height() ? Value(third(*r.height())) : Value(); }},
+     {number("first_break_velocity").unit("m/s").doc("when the first bond broke; nil when none did"),
+      [](const FlowFound& r) { return r.if_broken(r.first_break_velocity); }},
+     {number("first_break_pressure").unit("Pa"),
+      [](const FlowFound& r) { return r.if_broken(r.first_break_pressure); }},
+     {vec3("first_break_place").unit("m").doc("undeformed"),
+      [](const FlowFound& r) { return r.if_broken(r.first_break_place); }},
+     {integer("broken_tension"), &FlowFound::broken_tension},
+     {integer("broken_shear"), &FlowFound::broken_shear},
+     {integer("steps"), &FlowFound::steps},
+     {list("curve", object_type("CriticalFlowSample"), 0).doc("every 100 steps"), &FlowFound::curve,
+      flow_sample},
+     {mass_scaling_result_field()}}};
+
+const Record<CriticalFlowOptions> search_record{
+    {{choice("mode", {"hold", "ramp"})
+          .standard("hold")
+          .doc("hold: the pressure rises only while no bond broke for hold_periods, near the static "
+               "strength; ramp: always, and inertia has its part")},
+     {choice("held", {"x-", "x+", "y-", "y+", "z-", "z+"})
+          .doc("the side that is fixed: then the result says at which part of the height the solid broke")},
+     {number("pressure_rate").above(0).standard().unit("Pa/s"), &CriticalFlowOptions::pressure_rate},
+     {number("hold_periods").above(0).standard().doc("hold time in periods of the first mode"),
+      &CriticalFlowOptions::hold_periods},
+     {number("fragment_fraction").between(0, 1).standard().doc("of the volume: what counts as broken off"),
+      &CriticalFlowOptions::fragment_fraction},
+     {number("compliance_ratio")
+          .above(1)
+          .standard()
+          .doc("to the unbroken, static one: what counts as broken"),
+      &CriticalFlowOptions::compliance_ratio},
+     {number("max_velocity").above(1).standard().unit("m/s").doc("gives up there"),
+      &CriticalFlowOptions::max_velocity},
+     {number("safety").within(0, 1).standard().doc("time step over the stable one"),
+      &CriticalFlowOptions::safety},
+     {mass_scaling_field()},
+     {number("local_damping").from(0, 1).standard().doc("above 0.2 it acts as added mass"),
+      &CriticalFlowOptions::local_damping}}};
 
 Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
-  CriticalFlowOptions options;
+  CriticalFlowOptions options = search_record.read(a);
   options.flow = flow_of(model, a);
   options.hold = a.text("mode") == "hold";
-  options.pressure_rate = a.number("pressure_rate");
-  options.hold_periods = a.number("hold_periods");
-  options.fragment_fraction = a.number("fragment_fraction");
-  options.compliance_ratio = a.number("compliance_ratio");
-  options.max_velocity = a.number("max_velocity");
-  options.safety = a.number("safety");
-  options.local_damping = a.number("local_damping");
   options.mass_scaling = mass_scaling_of(a);
   const std::string held = a.text_or("held", "");
   if (!held.empty())
     options.held = Selection::side(held);
   warn_of_slivers(session, model);
-  return stage(session, model, "critical_flow", a, flow_result({}, {}, held), [&](Simulation& simulation) {
+  return stage(session, model, "critical_flow", a, flow_record({}), [&](Simulation& simulation) {
     const CriticalFlowResult result = simulation.critical_flow(options);
     if (result.reason == CriticalFlowResult::Reason::limit)
       session.warn(
           "critical_flow: nothing broke off up to max_velocity = " + number_text(options.max_velocity) +
           (simulation.counts().bonds > 0 ? " m/s; raise it"
                                          : " m/s: the model has no bonds; give its bodies a joint"));
-    Value row = flow_result(result, simulation.box(), held);
+    Value row = flow_record({result, simulation.box(), held});
     add_mass_scaling(session, "critical_flow", options.mass_scaling, result.time_step, result.scaled, row);
     return row;
   });
@@ -169,50 +211,10 @@ Value velocity(Session&, Object*, const Arguments& a) {
   return flow_velocity(a.number("pressure"), a.number("water_density"));
 }
 
-Field water_density() {
-  return water_density_field("water_density").standard(1025.0).doc("sea water by default");
-}
-
-std::vector<Field> flow_fields() {
-  return {vec3("direction").required().doc("of the flow; made a unit vector"),
-          place("on").standard(std::string("all")).doc("outer faces that may take it: one place"),
-          water_density(),
-          flag("new_faces").standard(false).doc("faces opened by cracks take the pressure too")};
-}
-
-void bind_flow_records(Module& m) {
-  m.records.insert(m.records.end(), {fragment, flow_sample});
-  m.records.push_back(
-      {"CriticalFlowResult",
-       "What the search for the critical flow came to.",
-       {choice("reason", {"fragment", "compliance", "limit"})
-            .required()
-            .doc("a piece came off; the compliance grew; or max_velocity was reached"),
-        number("velocity").unit("m/s").required(),
-        number("pressure").unit("Pa").required(),
-        number("time").unit("s").required(),
-        number("period").unit("s").required().doc("of the first mode"),
-        number("compliance").unit("m/Pa").required().doc("of the unbroken solid at rest"),
-        list("fragments", object_type("Fragment"), 0).required().doc("largest first"),
-        number("broken_area").unit("m2").required(),
-        vec3("place").unit("m").doc("centroid of the broken area; nil when nothing broke"),
-        vec3("place_fraction").doc("the same in parts of the model's box, 0 to 1"),
-        number("height_fraction").doc("along the held side's normal, from that side on"),
-        choice("part", {"root", "waist", "top"}).doc("third of that height"),
-        number("first_break_velocity").unit("m/s").doc("when the first bond broke; nil when none did"),
-        number("first_break_pressure").unit("Pa"),
-        vec3("first_break_place").unit("m").doc("undeformed"),
-        integer("broken_tension").required(),
-        integer("broken_shear").required(),
-        integer("steps").required(),
-        list("curve", object_type("CriticalFlowSample"), 0).required().doc("every 100 steps"),
-        mass_scaling_result_field()}});
-}
-
 } // namespace
 
 void bind_flow(Module& m) {
-  bind_flow_records(m);
+  m.records.insert(m.records.end(), {fragment, flow_sample, flow_record});
   m.add("flow_pressure", "Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.",
         {number("velocity").at_least(0).unit("m/s").required(), water_density()}, pressure, "number")
       .ordered();
@@ -220,7 +222,7 @@ void bind_flow(Module& m) {
         {number("pressure").at_least(0).unit("Pa").required(), water_density()}, velocity, "number")
       .ordered();
   Class& model = m.the_class("Model");
-  std::vector<Field> steady = flow_fields();
+  std::vector<Field> steady = stream.fields();
   steady[0] = vec3("direction").doc("of the flow; made a unit vector");
   steady[1].doc("outer faces that may take it: one place; of water: a place or a list of places");
   steady[3].doc("faces opened by cracks take the pressure too; always with water");
@@ -250,33 +252,10 @@ void bind_flow(Module& m) {
            "rest. With water = a field, the forces of waves. Shielding is not modelled.",
            steady, flow)
       .replayed(Replay::again);
-  std::vector<Field> search = flow_fields();
-  for (const Field& field :
-       {choice("mode", {"hold", "ramp"})
-            .standard("hold")
-            .doc("hold: the pressure rises only while no bond broke for hold_periods, near the static "
-                 "strength; ramp: always, and inertia has its part"),
-        choice("held", {"x-", "x+", "y-", "y+", "z-", "z+"})
-            .doc("the side that is fixed: then the result says at which part of the height the solid broke"),
-        number("pressure_rate").above(0).standard(5e6).unit("Pa/s"),
-        number("hold_periods").above(0).standard(3.0).doc("hold time in periods of the first mode"),
-        number("fragment_fraction")
-            .between(0, 1)
-            .standard(0.1)
-            .doc("of the volume: what counts as broken off"),
-        number("compliance_ratio")
-            .above(1)
-            .standard(10.0)
-            .doc("to the unbroken, static one: what counts as broken"),
-        number("max_velocity").above(1).standard(100.0).unit("m/s").doc("gives up there"),
-        number("safety").within(0, 1).standard(0.9).doc("time step over the stable one"),
-        mass_scaling_field(),
-        number("local_damping").from(0, 1).standard(0.1).doc("above 0.2 it acts as added mass")})
-    search.push_back(field);
   model.add("critical_flow",
             "Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become "
             "compliant. The pressure is that on a surface at rest.",
-            search, critical_flow, "cdem.CriticalFlowResult");
+            stream.fields() + search_record.fields(), critical_flow, "cdem.CriticalFlowResult");
 }
 
 } // namespace cdem::script

@@ -1,8 +1,8 @@
 // The generalised Hoek-Brown strength, of plasticity and of the faces of cohesive bodies.
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/objects.hpp"
+#include "lua/binding/schema/angles.hpp"
 
 #include "libgeom/core/error.hpp"
 
@@ -12,18 +12,24 @@ namespace cdem::script {
 
 namespace {
 
-std::vector<Field> rock_mass_fields() {
-  return {
-      rock_strength_field("sigma_ci").required().doc("uniaxial compressive strength of the intact rock"),
-      number("gsi").within(5, 100).required().doc("geological strength index; 100 is intact rock"),
-      number("m_i").above(0).required().doc("constant of the intact rock, 4 for claystone to 33 for granite"),
-      number("disturbance").within(0, 1).standard(0.0).doc("D: 0 is undisturbed rock, 1 poor blasting"),
-      strength_field("tensile_strength")
-          .doc("at most that of the curve in uniaxial tension, which is the default")};
-}
+const Record<RockMass> rock_mass{
+    {{rock_strength_field("sigma_ci").required().doc("uniaxial compressive strength of the intact rock"),
+      &RockMass::sigma_ci},
+     {number("gsi").within(5, 100).required().doc("geological strength index; 100 is intact rock"),
+      &RockMass::geological_strength},
+     {number("m_i").above(0).required().doc("constant of the intact rock, 4 for claystone to 33 for granite"),
+      &RockMass::intact_constant},
+     {number("disturbance").within(0, 1).standard().doc("D: 0 is undisturbed rock, 1 poor blasting"),
+      &RockMass::disturbance},
+     {strength_field("tensile_strength")
+          .doc("at most that of the curve in uniaxial tension, which is the default")}}},
+    residual_mass{{{number("gsi").within(5, 100), &RockMass::geological_strength},
+                   {number("m_i").above(0), &RockMass::intact_constant},
+                   {number("disturbance").within(0, 1), &RockMass::disturbance},
+                   {strength_field("tensile_strength")}}};
 
 RockMass read_rock_mass(const Arguments& a) {
-  const RockMass rock{a.number("sigma_ci"), a.number("gsi"), a.number("m_i"), a.number("disturbance")};
+  const RockMass rock = rock_mass.read(a);
   validate(rock);
   return rock;
 }
@@ -43,9 +49,7 @@ Value plastic_hoek_brown(Session&, Object*, const Arguments& a) {
         "softening_strain: goes together with residual: over that plastic strain the strength falls to it");
   if (residual) {
     rock.softening_strain = a.number("softening_strain");
-    mass.geological_strength = residual->optional_number("gsi").value_or(mass.geological_strength);
-    mass.intact_constant = residual->optional_number("m_i").value_or(mass.intact_constant);
-    mass.disturbance = residual->optional_number("disturbance").value_or(mass.disturbance);
+    residual_mass.read(*residual, mass);
     rock.residual_curve = hoek_brown(mass);
     rock.residual_tensile_strength =
         residual->optional_number("tensile_strength")
@@ -70,32 +74,25 @@ Value hoek_brown_bond(Session&, Object*, const Arguments& a) {
 } // namespace
 
 void bind_hoek_brown(Module& m) {
-  std::vector<Field> plastic = rock_mass_fields();
-  plastic.push_back(number("dilation_angle")
-                        .from(0, 90)
-                        .standard(0.0)
-                        .unit("deg")
-                        .doc("at most the friction angle of the tangent"));
-  plastic.push_back(
-      record("residual", {number("gsi").within(5, 100), number("m_i").above(0),
-                          number("disturbance").within(0, 1), strength_field("tensile_strength")})
-          .doc("of the rock at softening_strain; what is left out stays"));
-  plastic.push_back(
-      number("softening_strain")
-          .above(0)
-          .doc("equivalent plastic strain at which the residual strength is reached, linearly; without "
-               "fracture energy, so that what it dissipates depends on the size of the elements"));
+  const std::vector<Field> plastic{number("dilation_angle")
+                                       .from(0, 90)
+                                       .standard(0.0)
+                                       .unit("deg")
+                                       .doc("at most the friction angle of the tangent"),
+                                   record("residual", residual_mass.fields())
+                                       .doc("of the rock at softening_strain; what is left out stays"),
+                                   softening_strain_field()};
   m.add("hoek_brown",
         "Plasticity by the generalised Hoek-Brown strength of a rock mass (Hoek, Carranza-Torres and Corkum "
         "2002), with tension cut-off, dilation and softening (docs/theory.md, section 25).",
-        plastic, plastic_hoek_brown, "cdem.Plasticity");
-  std::vector<Field> bond = rock_mass_fields();
-  bond.push_back(friction_field("friction_angle").required().doc("of a crack, once it has begun"));
+        rock_mass.fields() + plastic, plastic_hoek_brown, "cdem.Plasticity");
+  const std::vector<Field> bond{
+      friction_field("friction_angle").required().doc("of a crack, once it has begun")};
   m.add("hoek_brown_bond",
         "Brittle strength of a cohesive body (bonds = \"cohesive\") by the generalised Hoek-Brown curve: a "
         "face cracks where the stress meets the curve, on the plane of its tangent (docs/theory.md, section "
         "22).",
-        bond, hoek_brown_bond, "cdem.Joint");
+        rock_mass.fields() + bond, hoek_brown_bond, "cdem.Joint");
 }
 
 } // namespace cdem::script

@@ -1,6 +1,6 @@
 // The state of rock before work begins: initial stress, gravity, how far from balance, displacement set to zero.
 #include "lua/binding/functions/solving_stage.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/selections.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -91,19 +91,21 @@ Value initial_stress(Session& session, ModelObject& model, const Arguments& a) {
   return beyond.points;
 }
 
+const Record<RelaxOptions> balance_options{
+    {{number("residual")
+          .between(0, 1)
+          .standard()
+          .doc("goal: out-of-balance force norm over applied force norm"),
+      &RelaxOptions::residual},
+     {integer("max_steps").at_least(1).standard().doc("gives up with converged = false"),
+      &RelaxOptions::max_steps}}};
+
 Value gravity_stress(Session& session, ModelObject& model, const Arguments& a) {
-  RelaxOptions options;
+  RelaxOptions options = balance_options.read(a);
   options.breaking = false;
-  options.residual = a.number("residual");
-  options.max_steps = a.integer("max_steps");
-  const auto result_of = [](const RelaxResult& r) {
-    return Table{{"converged", r.converged},       {"steps", r.steps},
-                 {"residual", r.residual},         {"broken_tension", r.broken_tension},
-                 {"broken_shear", r.broken_shear}, {"wall_time", r.wall_time}};
-  };
   if (!model.simulation.has_gravity())
     throw InputError("gravity_stress: no gravity acts; call model:gravity{ vector = {0, 0, -9.81} } first");
-  return stage(session, model, "gravity_stress", a, result_of({}), [&](Simulation& simulation) {
+  return stage(session, model, "gravity_stress", a, relax_record({}), [&](Simulation& simulation) {
     const RelaxResult result = simulation.relax(options);
     if (!result.converged)
       session.warn("gravity_stress: not converged after " + std::to_string(result.steps) +
@@ -111,7 +113,7 @@ Value gravity_stress(Session& session, ModelObject& model, const Arguments& a) {
                    number_text(options.residual) +
                    "; raise max_steps, or look whether something moves freely");
     simulation.reset_displacement();
-    return Value(result_of(result));
+    return Value(relax_record(result));
   });
 }
 
@@ -122,22 +124,23 @@ Value reset_displacement(Session&, ModelObject& model, const Arguments&) {
   return {};
 }
 
+const Record<Unbalance> unbalance_record{
+    "Unbalance",
+    "How far from balance a model is.",
+    {{number("largest").doc("net force of a free node over the reference, the largest"), &Unbalance::largest},
+     {number("mean").doc("the mean over all free nodes"), &Unbalance::mean},
+     {number("force").unit("N").doc("net force where the ratio is largest"), &Unbalance::force},
+     {integer("block").doc("its id, there"), &Unbalance::block},
+     {vec3("place").unit("m"), &Unbalance::place}}};
+
 Value unbalance(Session&, ModelObject& model, const Arguments& a) {
-  const Unbalance u = model.simulation.unbalance(a.optional_number("reference"));
-  return Table{
-      {"largest", u.largest}, {"mean", u.mean}, {"force", u.force}, {"block", u.block}, {"place", u.place}};
+  return unbalance_record(model.simulation.unbalance(a.optional_number("reference")));
 }
 
 } // namespace
 
 void bind_in_situ(Module& m) {
-  m.records.push_back(
-      {"Unbalance",
-       "How far from balance a model is.",
-       {number("largest").required().doc("net force of a free node over the reference, the largest"),
-        number("mean").required().doc("the mean over all free nodes"),
-        number("force").unit("N").required().doc("net force where the ratio is largest"),
-        integer("block").required().doc("its id, there"), vec3("place").unit("m").required()}});
+  m.records.push_back(unbalance_record);
   Class& model = m.the_class("Model");
   model.add("initial_stress",
             "Stress present before anything moves: the same everywhere, growing with depth, or the sum of "
@@ -158,12 +161,7 @@ void bind_in_situ(Module& m) {
   model.add("gravity_stress",
             "Stress of the model's own weight: relaxes under gravity and what else acts, without breaking "
             "bonds, and then sets the displacement to zero.",
-            {number("residual")
-                 .between(0, 1)
-                 .standard(1e-6)
-                 .doc("goal: out-of-balance force norm over applied force norm"),
-             integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false")},
-            gravity_stress, "cdem.RelaxResult");
+            balance_options.fields(), gravity_stress, "cdem.RelaxResult");
   model.add("reset_displacement",
             "Results show the displacement from here on: fields, measures, files and pictures, which draw "
             "the model where it stands now. Stress, joints and supports go on as before; opening and slip of "

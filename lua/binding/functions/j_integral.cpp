@@ -1,5 +1,5 @@
 // The energy release rate at the front of a crack.
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -12,6 +12,34 @@ namespace {
 
 using geom::InputError;
 using geom::Vec3;
+
+struct JFound : JIntegral {
+  Elastic material;
+
+  // Pa m^0.5, with a Young's modulus.
+  std::optional<double> toughness(double modulus) const {
+    return mean() >= 0 ? std::optional<double>(std::sqrt(mean() * modulus)) : std::nullopt;
+  }
+};
+
+const Record<JDomain> domain_record{{{number("inner").unit("m").required(), &JDomain::inner},
+                                     {number("outer").unit("m").required(), &JDomain::outer},
+                                     {number("j").unit("J/m2").required(), &JDomain::j}}};
+
+const Record<JFound> j_record{
+    "JIntegral",
+    "Energy release rate at a crack front.",
+    {{number("j").unit("J/m2").doc("mean over the domains"), &JFound::mean},
+     {number("spread").doc("largest less smallest of the domains, over the mean"), &JFound::spread},
+     {number("thickness").unit("m").doc("length of the front"), &JFound::thickness},
+     {list("domains", record_type(domain_record.fields())), &JFound::domains, domain_record},
+     {number("k_plane_stress").unit("Pa m^0.5").doc("sqrt(E j); nil where j < 0"),
+      [](const JFound& f) { return f.toughness(f.material.youngs_modulus); }},
+     {number("k_plane_strain").unit("Pa m^0.5").doc("sqrt(E j / (1 - nu^2)); nil where j < 0"),
+      [](const JFound& f) {
+        const double nu = f.material.poissons_ratio;
+        return f.toughness(f.material.youngs_modulus / (1 - nu * nu));
+      }}}};
 
 Value j_integral(Session&, ModelObject& model, const Arguments& a) {
   JFront front;
@@ -33,38 +61,14 @@ Value j_integral(Session&, ModelObject& model, const Arguments& a) {
   }
   const std::string body = a.text_or("body", "");
   const JIntegral found = model.simulation.j_integral(body, front, domains);
-  Values rows;
-  for (const JDomain& domain : found.domains)
-    rows.emplace_back(Table{{"inner", domain.inner}, {"outer", domain.outer}, {"j", domain.j}});
-  const double j = found.mean();
-  Table result{{"j", j},
-               {"spread", found.spread()},
-               {"thickness", found.thickness},
-               {"domains", Table::list(std::move(rows))}};
   const Elastic& material = model.simulation.material(body.empty() ? model.body_names[0] : body);
-  const double nu = material.poissons_ratio, k2 = j * material.youngs_modulus;
-  if (j >= 0) {
-    result.named["k_plane_stress"] = std::sqrt(k2);
-    result.named["k_plane_strain"] = std::sqrt(k2 / (1 - nu * nu));
-  }
-  return result;
+  return j_record({found, material});
 }
 
 } // namespace
 
 void bind_j_integral(Module& m) {
-  m.records.push_back(
-      {"JIntegral",
-       "Energy release rate at a crack front.",
-       {number("j").unit("J/m2").required().doc("mean over the domains"),
-        number("spread").required().doc("largest less smallest of the domains, over the mean"),
-        number("thickness").unit("m").required().doc("length of the front"),
-        list("domains",
-             record_type({number("inner").unit("m").required(), number("outer").unit("m").required(),
-                          number("j").unit("J/m2").required()}))
-            .required(),
-        number("k_plane_stress").unit("Pa m^0.5").doc("sqrt(E j); nil where j < 0"),
-        number("k_plane_strain").unit("Pa m^0.5").doc("sqrt(E j / (1 - nu^2)); nil where j < 0")}});
+  m.records.push_back(j_record);
   m.the_class("Model").add(
       "j_integral",
       "Energy release rate at a straight crack front or notch of a meshed body, the mean over its thickness "

@@ -1,11 +1,11 @@
 // Laws of joints between blocks: residual strength and dilation, Barton-Bandis, tables. A new law has its entry here.
 #include "lua/binding/functions/joint_laws.hpp"
 
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
+#include "lua/binding/schema/angles.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -21,13 +21,6 @@ double tangent(double degrees) {
   return geom::portable::tan(radians(degrees));
 }
 
-JointTable::Rows rows_of(const Arguments& a, const std::string& name) {
-  JointTable::Rows rows;
-  for (const Value& row : a.list(name))
-    rows.push_back({row.table()->items[0].number(), row.table()->items[1].number()});
-  return rows;
-}
-
 Value finished(Joint&& joint) {
   validate(joint);
   auto object = std::make_shared<JointObject>();
@@ -35,13 +28,26 @@ Value finished(Joint&& joint) {
   return object;
 }
 
+const Record<BartonBandis> rough_joint{
+    {{number("jrc").within(0, 20).required().doc("joint roughness coefficient"), &BartonBandis::jrc},
+     {rock_strength_field("jcs").required().doc("strength of the joint walls"), &BartonBandis::jcs},
+     {friction_field("residual_friction_angle").from(0, 70).required().doc("phi_r"),
+      &BartonBandis::residual_angle},
+     {joint_stiffness_field("initial_stiffness")
+          .required()
+          .doc(
+              "slope of the hyperbola where it begins; normal_stiffness, or E/L, is the steepest it becomes"),
+      &BartonBandis::initial_stiffness},
+     {number("maximum_closure").above(0).unit("m").required(), &BartonBandis::maximum_closure},
+     {number("length").above(0).unit("m").doc(
+         "of the joint: jrc and jcs are those of samples and are scaled to it, and it gives the slip at the "
+         "peak, length / 500 (JRC / length)^0.33")},
+     {number("sample_length").above(0).unit("m").standard(0.1).doc("of the samples")},
+     {number("peak_slip").above(0).unit("m").doc("slip at the peak; wins over that of the length"),
+      &BartonBandis::peak_slip}}};
+
 Value barton_bandis(Session&, Object*, const Arguments& a) {
-  BartonBandis law;
-  law.jrc = a.number("jrc");
-  law.jcs = a.number("jcs");
-  law.residual_angle = radians(a.number("residual_friction_angle"));
-  law.initial_stiffness = a.number("initial_stiffness");
-  law.maximum_closure = a.number("maximum_closure");
+  BartonBandis law = rough_joint.read(a);
   if (const auto length = a.optional_number("length"))
     scale_to_length(law, *length, a.number("sample_length"));
   law.peak_slip = a.optional_number("peak_slip").value_or(law.peak_slip);
@@ -49,18 +55,26 @@ Value barton_bandis(Session&, Object*, const Arguments& a) {
   joint.bonded = false;
   joint.friction_angle = law.residual_angle;
   joint.law = law;
-  read_joint_stiffness(a, joint);
+  joint_stiffness().read(a, joint);
   return finished(std::move(joint));
 }
 
+const Record<JointTable> table_joint{
+    {{list("normal", tuple_type({number_type(), number_type()}), 0)
+          .doc("rows {closure (m), pressure (Pa)} that rise, one of them {0, 0}; rows below it are "
+               "{-opening, -pull}, up to the opening at which the joint parts. Without rows it is linear"),
+      &JointTable::closing},
+     {list("shear", tuple_type({number_type(), number_type()}), 2)
+          .required()
+          .doc("rows {pressure (Pa), strength (Pa)}, the first {0, strength without pressure}"),
+      &JointTable::shear}}};
+
 Value joint_table(Session&, Object*, const Arguments& a) {
-  JointTable law;
-  law.closing = rows_of(a, "normal");
-  law.shear = rows_of(a, "shear");
+  const JointTable law = table_joint.read(a);
   Joint joint;
   joint.bonded = false;
   joint.law = law;
-  read_joint_stiffness(a, joint);
+  joint_stiffness().read(a, joint);
   validate(joint);
   joint.friction_angle = geom::portable::atan2(law.friction_left({}), 1);
   return finished(std::move(joint));
@@ -143,71 +157,41 @@ void read_residual_strength(Session& session, const Arguments& a, Joint& joint) 
   joint.law = law;
 }
 
-std::vector<Field> joint_stiffness_fields() {
-  return {number("thickness_ratio")
-              .above(0)
-              .standard(0.02)
-              .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
-                   "sets the stiffness E/L and G/L"),
-          number("thickness")
-              .above(0)
-              .unit("m")
-              .doc("equivalent thickness itself; wins over the ratio. Contacts of meshes take it too"),
-          joint_stiffness_field("normal_stiffness").doc("instead of E/L"),
-          joint_stiffness_field("shear_stiffness").doc("instead of G/L"),
-          number("stiffness_damping")
-              .at_least(0)
-              .standard(0.0)
-              .unit("s")
-              .doc("beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, "
-                   "as long as their faces have not parted; refused where it would do nothing")};
-}
-
-void read_joint_stiffness(const Arguments& a, Joint& joint) {
-  joint.thickness_ratio = a.number("thickness_ratio");
-  joint.thickness = a.optional_number("thickness");
-  joint.normal_stiffness = a.optional_number("normal_stiffness");
-  joint.shear_stiffness = a.optional_number("shear_stiffness");
-  joint.stiffness_damping = a.number("stiffness_damping");
+const Record<Joint>& joint_stiffness() {
+  static const Record<Joint> members{
+      {{number("thickness_ratio")
+            .above(0)
+            .standard()
+            .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
+                 "sets the stiffness E/L and G/L"),
+        &Joint::thickness_ratio},
+       {number("thickness")
+            .above(0)
+            .unit("m")
+            .doc("equivalent thickness itself; wins over the ratio. Contacts of meshes take it too"),
+        &Joint::thickness},
+       {joint_stiffness_field("normal_stiffness").doc("instead of E/L"), &Joint::normal_stiffness},
+       {joint_stiffness_field("shear_stiffness").doc("instead of G/L"), &Joint::shear_stiffness},
+       {number("stiffness_damping")
+            .at_least(0)
+            .standard()
+            .unit("s")
+            .doc("beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, "
+                 "as long as their faces have not parted; refused where it would do nothing"),
+        &Joint::stiffness_damping}}};
+  return members;
 }
 
 void bind_joint_laws(Module& m) {
-  const auto with_stiffness = [](std::vector<Field> fields) {
-    for (const Field& f : joint_stiffness_fields())
-      fields.push_back(f);
-    return fields;
-  };
   m.add("barton_bandis",
         "Rough joint between blocks that never was bonded (Barton and Choubey 1977, Bandis et al. 1983): it "
         "closes on a hyperbola and slips above pressure x tan(residual angle + JRC log10(JCS / pressure)). "
         "With a length, or peak_slip, the roughness is mobilised and worn with slip, and the joint dilates.",
-        with_stiffness(
-            {number("jrc").within(0, 20).required().doc("joint roughness coefficient"),
-             rock_strength_field("jcs").required().doc("strength of the joint walls"),
-             friction_field("residual_friction_angle").from(0, 70).required().doc("phi_r"),
-             joint_stiffness_field("initial_stiffness")
-                 .required()
-                 .doc("slope of the hyperbola where it begins; normal_stiffness, or E/L, is the steepest it "
-                      "becomes"),
-             number("maximum_closure").above(0).unit("m").required(),
-             number("length").above(0).unit("m").doc(
-                 "of the joint: jrc and jcs are those of samples and are scaled to it, and it gives the slip "
-                 "at the peak, length / 500 (JRC / length)^0.33"),
-             number("sample_length").above(0).unit("m").standard(0.1).doc("of the samples"),
-             number("peak_slip").above(0).unit("m").doc("slip at the peak; wins over that of the length")}),
-        barton_bandis, "cdem.Joint");
+        rough_joint.fields() + joint_stiffness().fields(), barton_bandis, "cdem.Joint");
   m.add("joint_table",
         "Joint between blocks that never was bonded, by tables: straight between rows, straight on beyond "
         "the last.",
-        with_stiffness(
-            {list("normal", tuple_type({number_type(), number_type()}), 0)
-                 .doc("rows {closure (m), pressure (Pa)} that rise, one of them {0, 0}; rows below it are "
-                      "{-opening, -pull}, up to the opening at which the joint parts. Without rows it is "
-                      "linear"),
-             list("shear", tuple_type({number_type(), number_type()}), 2)
-                 .required()
-                 .doc("rows {pressure (Pa), strength (Pa)}, the first {0, strength without pressure}")}),
-        joint_table, "cdem.Joint");
+        table_joint.fields() + joint_stiffness().fields(), joint_table, "cdem.Joint");
 }
 
 } // namespace cdem::script

@@ -1,7 +1,7 @@
 // Fields of cdem.mohr_coulomb and cdem.coulomb for residual strength and dilation.
 #pragma once
 
-#include "lua/binding/schema/schema.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libcdem/joint/joint.hpp"
@@ -14,8 +14,7 @@ std::vector<Field> residual_strength_fields(); // of a bond only
 // Gives the joint its law where some of them are given; the peak stands in it.
 void read_residual_strength(Session&, const Arguments&, Joint&);
 
-std::vector<Field> joint_stiffness_fields();
-void read_joint_stiffness(const Arguments&, Joint&);
+const Record<Joint>& joint_stiffness();
 
 // "Barton-Bandis, JRC 10, ..."; "" for a joint without a law.
 std::string law_text(const Joint&);

@@ -7,8 +7,7 @@ namespace cdem::script {
 
 JointChoice joint_choice(const ModelObject& model, const Arguments& a) {
   JointChoice choice;
-  for (const Value& set : a.list("sets"))
-    choice.sets.push_back(*set.get<std::string>());
+  choice.sets = a.texts("sets");
   choice.on = one_selection(model, a.value("on"), "on");
   return choice;
 }
@@ -47,45 +46,35 @@ Table joints(Session&, ModelObject& model, const Arguments& a) {
   return joint_sum.list(model.simulation.joints(joint_choice(model, a)));
 }
 
-Value joint_points(Session&, ModelObject& model, const Arguments& a) {
-  static const char* const modes[] = {"bonded", "broken_tension", "broken_shear", "contact"};
-  static const char* const names[] = {
-      "set",         "place",   "area", "mode", "normal_traction", "shear_traction", "water_pressure",
-      "utilisation", "opening", "slip"};
-  Values lists[10];
-  for (const auto& [set, p] : model.simulation.joint_points(joint_choice(model, a))) {
-    const Value row[] = {set,       p.place, p.area,  std::string(modes[static_cast<int>(p.mode)]),
-                         p.normal,  p.shear, p.water, p.utilisation,
-                         p.opening, p.slip};
-    for (int i = 0; i < 10; ++i)
-      lists[i].push_back(row[i]);
-  }
-  Table result;
-  for (int i = 0; i < 10; ++i)
-    result.named[names[i]] = Table::list(std::move(lists[i]));
-  return result;
-}
+using NamedPoint = std::pair<std::string, JointPoint>;
 
-std::vector<Field> point_fields() {
-  return {list("set", text_type(), 0).required(),
-          list("place", vec3_type(), 0).unit("m").required().doc("undeformed"),
-          list("area", number_type(), 0).unit("m2").required(),
-          list("mode", text_type(), 0)
-              .required()
-              .doc("\"bonded\", \"broken_tension\", \"broken_shear\" or \"contact\""),
-          list("normal_traction", number_type(), 0).unit("Pa").required().doc("tension positive; effective"),
-          list("shear_traction", number_type(), 0).unit("Pa").required(),
-          list("water_pressure", number_type(), 0).unit("Pa").required(),
-          list("utilisation", number_type(), 0).required(),
-          list("opening", number_type(), 0).unit("m").required(),
-          list("slip", number_type(), 0).unit("m").required()};
+const Record<NamedPoint> joint_point{
+    "JointPoints",
+    "The points of joints: lists with an entry for each.",
+    {{text("set"), &NamedPoint::first},
+     {vec3("place").unit("m").doc("undeformed"), [](const NamedPoint& p) { return p.second.place; }},
+     {number("area").unit("m2"), [](const NamedPoint& p) { return p.second.area; }},
+     {text("mode").doc("\"bonded\", \"broken_tension\", \"broken_shear\" or \"contact\""),
+      [](const NamedPoint& p) {
+        static const char* const modes[] = {"bonded", "broken_tension", "broken_shear", "contact"};
+        return modes[static_cast<int>(p.second.mode)];
+      }},
+     {number("normal_traction").unit("Pa").doc("tension positive; effective"),
+      [](const NamedPoint& p) { return p.second.normal; }},
+     {number("shear_traction").unit("Pa"), [](const NamedPoint& p) { return p.second.shear; }},
+     {number("water_pressure").unit("Pa"), [](const NamedPoint& p) { return p.second.water; }},
+     {number("utilisation"), [](const NamedPoint& p) { return p.second.utilisation; }},
+     {number("opening").unit("m"), [](const NamedPoint& p) { return p.second.opening; }},
+     {number("slip").unit("m"), [](const NamedPoint& p) { return p.second.slip; }}}};
+
+Table joint_points(Session&, ModelObject& model, const Arguments& a) {
+  return joint_point.columns(model.simulation.joint_points(joint_choice(model, a)));
 }
 
 } // namespace
 
 void bind_joints(Module& m) {
-  m.records.push_back(joint_sum);
-  m.records.push_back({"JointPoints", "The points of joints: lists with an entry for each.", point_fields()});
+  m.records.insert(m.records.end(), {joint_sum, joint_point.of_columns()});
   Class& model = m.the_class("Model");
   model.add("joints",
             "What joints between blocks bear and how they have moved: a row for each joint set and named "

@@ -63,11 +63,6 @@ Table counts(ModelObject& model) {
   return counts_record(model.simulation.counts());
 }
 
-Value model_box(Session&, ModelObject& model, const Arguments&) {
-  const geom::Box box = model.simulation.box();
-  return Table{{"min", box.min}, {"max", box.max}};
-}
-
 void add_properties(Class& model) {
   Property memory{
       "memory", "table", "",
@@ -120,7 +115,10 @@ void bind_model_class(Module& m) {
            "Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.", {},
            process_zones, "cdem.ProcessZone[]")
       .ordered();
-  model.add("box", "Smallest axis-aligned box around the undeformed model.", {}, model_box, "cdem.Box")
+  model
+      .add(
+          "box", "Smallest axis-aligned box around the undeformed model.", {},
+          [](ModelObject& self) { return self.simulation.box(); }, "cdem.Box")
       .ordered();
   m.classes.push_back(model);
 }

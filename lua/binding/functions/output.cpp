@@ -3,7 +3,7 @@
 #include "lua/binding/functions/model_picture.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/session/model_object.hpp"
 
@@ -119,12 +119,40 @@ Value save_joints(Session& session, ModelObject& model, const Arguments& a) {
                       [&] { return model.simulation.joint_surface(choice, model.title(session)); });
 }
 
+const Record<PictureOptions> model_view{
+    {{number("deformation").standard().doc("displacements are drawn this many times larger; 0: undeformed"),
+      &PictureOptions::deformation},
+     {list("plain", text_type(), 0).doc("names of bodies that are drawn without colour, such as a floor")},
+     {list("hidden", text_type(), 0).doc("names of bodies that are left out, such as a wall")},
+     {number("opacity").within(0.05, 1).standard().doc(
+          "of the blocks; below 1 broken interfaces inside show through"),
+      &PictureOptions::opacity},
+     {flag("edges").standard().doc("outlines of the blocks"), &PictureOptions::edges},
+     {record("section", {vec3("point").unit("m").required(), vec3("normal").required()})
+          .doc("a plane: the cut through the undeformed blocks is drawn in place of their faces")},
+     {flag("arrows").standard(false).doc("displacement of the blocks that are shown")},
+     {flag("crosses").standard(false).doc(
+         "principal stresses of the blocks that are shown, pressure and tension in two colours")},
+     {list("joint_sets", text_type(), 0).doc("with joints: the sets that are drawn; all when left out")},
+     {flag("joints").standard(false).doc(
+         "the joints alone, within the outline of the bodies; colour is then \"slip\", \"opening\", "
+         "\"utilisation\", \"normal_traction\", \"shear_traction\", \"water_pressure\", \"mode\" or "
+         "\"set\"")},
+     {flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension")},
+     {flag("water").standard(true).doc(
+         "free surface of the water that loads the model (model:flow with water, and the level or table of "
+         "model:water), as a transparent sheet that tints no coloured body, and the line where it cuts the "
+         "bodies; in a section its line")},
+     {flag("water_velocity")
+          .standard(false)
+          .doc("velocity of that water as arrows: on its free surface, or in the section where that is "
+               "upright")},
+     {flag("broken_bonds").standard().doc("broken interfaces, coloured by how they broke"),
+      &PictureOptions::broken_bonds}}};
+
 PictureOptions picture_options(const Arguments& a) {
   PictureOptions options = view_options(a);
-  options.deformation = a.number("deformation");
-  options.opacity = a.number("opacity");
-  options.edges = a.flag("edges");
-  options.broken_bonds = a.flag("broken_bonds");
+  model_view.read(a, options);
   return options;
 }
 
@@ -155,13 +183,6 @@ void add_bolts(const Simulation& simulation, PictureOptions& options) {
       options.polylines.push_back(std::move(line));
     }
   }
-}
-
-JointChoice chosen_joints(const Arguments& a) {
-  JointChoice choice;
-  for (const Value& set : a.list("joint_sets"))
-    choice.sets.push_back(*set.get<std::string>());
-  return choice;
 }
 
 // Of all that is shown.
@@ -240,7 +261,7 @@ Value model_picture(Session& session, ModelObject& model, const Arguments& a) {
   led_act("picture", [&] {
     Snapshot shown;
     if (a.flag("joints"))
-      shown = joints_of(model.simulation.joint_picture(chosen_joints(a), title));
+      shown = joints_of(model.simulation.joint_picture({a.texts("joint_sets"), Selection()}, title));
     else if (water.point)
       shown = section_with_water(without_hidden(model.simulation.snapshot(title, water), hidden),
                                  {*water.point, water.normal}, options);
@@ -259,40 +280,10 @@ std::vector<Field> model_picture_fields() {
       view_fields("field to colour by, e.g. \"displacement.x\", \"stress.yy\", \"von_mises\", \"block_id\"; "
                   "plain blocks when left out",
                   "z where gravity acts along z, else y");
-  fields.insert(fields.begin() + 2,
-                number("deformation")
-                    .standard(0.0)
-                    .doc("displacements are drawn this many times larger; 0: undeformed"));
-  fields.push_back(
-      list("plain", text_type(), 0).doc("names of bodies that are drawn without colour, such as a floor"));
-  fields.push_back(list("hidden", text_type(), 0).doc("names of bodies that are left out, such as a wall"));
-  fields.push_back(number("opacity").within(0.05, 1).standard(1.0).doc(
-      "of the blocks; below 1 broken interfaces inside show through"));
-  fields.push_back(flag("edges").standard(true).doc("outlines of the blocks"));
-  fields.push_back(
-      record("section", {vec3("point").unit("m").required(), vec3("normal").required()})
-          .doc("a plane: the cut through the undeformed blocks is drawn in place of their faces"));
-  fields.push_back(flag("arrows").standard(false).doc("displacement of the blocks that are shown"));
-  fields.push_back(flag("crosses").standard(false).doc(
-      "principal stresses of the blocks that are shown, pressure and tension in two colours"));
-  fields.push_back(
-      list("joint_sets", text_type(), 0).doc("with joints: the sets that are drawn; all when left out"));
-  fields.push_back(flag("joints").standard(false).doc(
-      "the joints alone, within the outline of the bodies; colour is then \"slip\", \"opening\", "
-      "\"utilisation\", "
-      "\"normal_traction\", \"shear_traction\", \"water_pressure\", \"mode\" or \"set\""));
-  fields.push_back(
-      flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension"));
-  fields.push_back(flag("water").standard(true).doc(
-      "free surface of the water that loads the model (model:flow with water, and the level or table of "
-      "model:water), as a transparent sheet that tints no coloured body, and the line "
-      "where it cuts the bodies; in a section its line"));
-  fields.push_back(flag("water_velocity")
-                       .standard(false)
-                       .doc("velocity of that water as arrows: on its free surface, or in the section where "
-                            "that is upright"));
-  fields.push_back(flag("broken_bonds").standard(true).doc("broken interfaces, coloured by how they broke"));
-  return fields;
+  std::vector<Field> own = model_view.fields();
+  fields.insert(fields.begin() + 2, own.front()); // how it is deformed
+  own.erase(own.begin());
+  return fields + own;
 }
 
 void bind_output(Module& m) {

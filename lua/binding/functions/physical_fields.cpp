@@ -33,7 +33,7 @@ Field fracture_energy_field(std::string name) {
 Field friction_field(std::string name) { // the radians of any usual angle are fewer
   return number(std::move(name))
       .from(0, 90)
-      .unit("deg")
+      .in_degrees()
       .doubted(0, 1.5, "Rock has 20 to 50; math.deg(x) makes degrees of radians");
 }
 
@@ -59,6 +59,13 @@ Field water_weight_field(std::string name) { // lighter than any liquid: perhaps
       .standard(9810.0)
       .doubted(0, 5e3, hint)
       .doubted(2e4, unlimited, hint);
+}
+
+Field softening_strain_field() {
+  return number("softening_strain")
+      .above(0)
+      .doc("equivalent plastic strain at which the residual strength is reached, linearly; without fracture "
+           "energy, so that what it dissipates depends on the size of the elements");
 }
 
 } // namespace cdem::script

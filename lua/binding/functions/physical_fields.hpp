@@ -15,5 +15,6 @@ Field joint_stiffness_field(std::string name); // Pa/m, > 0
 Field density_field(std::string name);         // kg/m3, > 0; of a solid
 Field water_density_field(std::string name);   // kg/m3, > 0
 Field water_weight_field(std::string name);    // N/m3, > 0, 9810 by default
+Field softening_strain_field();                // of plasticity
 
 } // namespace cdem::script

@@ -3,6 +3,7 @@
 #include "libcdem/vtk/picture_room.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/plain_reason.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include <cmath>
@@ -64,87 +65,84 @@ std::optional<std::array<double, 2>> limits_of(const Arguments& a, const std::st
   return std::array<double, 2>{limits[0], limits[1]};
 }
 
+namespace {
+
+const Record<Camera> camera_record{
+    {{vec3("position").unit("m").required(), &Camera::position},
+     {vec3("focal_point").unit("m").required(), &Camera::focal_point},
+     {vec3("up").standard(), &Camera::up},
+     {number("view_angle").between(0, 180).unit("deg").standard().doc("over the height of the picture"),
+      &Camera::view_angle},
+     {flag("perspective").standard(), &Camera::perspective}}};
+
+const Record<Marker> marker_record{
+    {{vec3("at").unit("m").required().doc("undeformed place"), &Marker::position},
+     {text("label"), &Marker::label},
+     {colour_field()},
+     {number("size").above(0).standard().doc("pixels across"), &Marker::size}}};
+
+const Record<Polyline> line_record{{{list("points", vec3_type(), 2).unit("m").required(), &Polyline::points},
+                                    {text("label"), &Polyline::label},
+                                    {colour_field()},
+                                    {number("width").above(0).standard().doc("pixels"), &Polyline::width},
+                                    {flag("dashed").standard(), &Polyline::dashed}}};
+
+const Record<PictureOptions> view_record{
+    {{drawing_field()},
+     {text("colour"), &PictureOptions::field},
+     {choice("view", {"front", "back", "left", "right", "top", "bottom", "iso"})
+          .standard("front")
+          .doc("front looks along -z at the x-y plane"),
+      &PictureOptions::view},
+     {choice("up", {"y", "z"}), &PictureOptions::up},
+     {record("camera", camera_record.fields()).doc("instead of view"), &PictureOptions::camera,
+      camera_record},
+     {box("fit").doc("a box that the view shows, in place of what is drawn: give it to all frames of a film, "
+                     "so that the camera does not move with what falls"),
+      &PictureOptions::fit},
+     {size_field()},
+     {dpi_field(), &PictureOptions::dpi},
+     {list("range", number_type(), 2).doc("{lowest, highest} of the colours, SI units")},
+     {choice("colour_map", {"auto", "blue_white_red", "cool_warm", "viridis", "grey", "categorical"})
+          .standard("auto")
+          .doc("auto: blue_white_red when values change sign, viridis when not. Without a range the colours "
+               "span all values but a few outliers; the legend tells them"),
+      &PictureOptions::colour_map},
+     {text("title").doc("_{...} and ^{...} set sub- and superscripts"), &PictureOptions::title},
+     {flag("colour_bar").standard(), &PictureOptions::colour_bar},
+     {flag("legend").standard(), &PictureOptions::legend},
+     {flag("axes").standard().doc("small arrows that name the directions"), &PictureOptions::axes},
+     {flag("scale_bar").standard().doc("a round length under the body; none in perspective"),
+      &PictureOptions::scale_bar},
+     {vec3("north").doc("the direction of north, {0, 1, 0}: an arrow N beside those of the axes"),
+      &PictureOptions::north},
+     {list("markers", record_type(marker_record.fields()), 0)},
+     {list("lines", record_type(line_record.fields()), 0)}}};
+
+} // namespace
+
 std::vector<Field> view_fields(const std::string& colour_doc, const std::string& usual_up) {
-  const std::vector<Field> camera{
-      vec3("position").unit("m").required(), vec3("focal_point").unit("m").required(),
-      vec3("up").standard(Value(geom::Vec3(0, 1, 0))),
-      number("view_angle").between(0, 180).unit("deg").standard(30.0).doc("over the height of the picture"),
-      flag("perspective").standard(true)};
-  const std::vector<Field> marker{vec3("at").unit("m").required().doc("undeformed place"), text("label"),
-                                  colour_field(),
-                                  number("size").above(0).standard(14.0).doc("pixels across")};
-  const std::vector<Field> line{list("points", vec3_type(), 2).unit("m").required(), text("label"),
-                                colour_field(), number("width").above(0).standard(4.0).doc("pixels"),
-                                flag("dashed").standard(false)};
-  return {drawing_field(),
-          text("colour").doc(colour_doc),
-          choice("view", {"front", "back", "left", "right", "top", "bottom", "iso"})
-              .standard("front")
-              .doc("front looks along -z at the x-y plane"),
-          choice("up", {"y", "z"}).doc("z: front looks along y with z up; default: " + usual_up),
-          record("camera", camera).doc("instead of view"),
-          record("fit", {vec3("min").unit("m").required(), vec3("max").unit("m").required()})
-              .doc("a box that the view shows, in place of what is drawn: give it to all frames of a film, "
-                   "so that the camera does not move with what falls"),
-          size_field(),
-          dpi_field(),
-          list("range", number_type(), 2).doc("{lowest, highest} of the colours, SI units"),
-          choice("colour_map", {"auto", "blue_white_red", "cool_warm", "viridis", "grey", "categorical"})
-              .standard("auto")
-              .doc("auto: blue_white_red when values change sign, viridis when not. Without a range the "
-                   "colours span all values but a few outliers; the legend tells them"),
-          text("title").doc("_{...} and ^{...} set sub- and superscripts"),
-          flag("colour_bar").standard(true),
-          flag("legend").standard(true),
-          flag("axes").standard(true).doc("small arrows that name the directions"),
-          flag("scale_bar").standard(false).doc("a round length under the body; none in perspective"),
-          vec3("north").doc("the direction of north, {0, 1, 0}: an arrow N beside those of the axes"),
-          list("markers", record_type(marker), 0),
-          list("lines", record_type(line), 0)};
+  std::vector<Field> fields = view_record.fields();
+  for (Field& field : fields)
+    if (field.name == "colour")
+      field.doc(colour_doc);
+    else if (field.name == "up")
+      field.doc("z: front looks along y with z up; default: " + usual_up);
+  return fields;
 }
 
 PictureOptions view_options(const Arguments& a) {
-  PictureOptions options;
-  options.field = a.text_or("colour", "");
-  options.view = a.text("view");
-  options.up = a.text_or("up", options.up);
-  if (const auto fit = a.record("fit"))
-    options.fit = geom::Box{fit->vec3("min"), fit->vec3("max")};
-  if (const auto camera = a.record("camera")) {
-    options.camera.emplace();
-    options.camera->position = camera->vec3("position");
-    options.camera->focal_point = camera->vec3("focal_point");
-    options.camera->up = camera->vec3("up");
-    options.camera->view_angle = camera->number("view_angle");
-    options.camera->perspective = camera->flag("perspective");
-  }
+  PictureOptions options = view_record.read(a);
   options.size = size_of(a);
-  options.dpi = a.number("dpi");
   options.range = limits_of(a, "range");
-  options.colour_map = a.text("colour_map");
-  options.title = a.text_or("title", "");
-  options.colour_bar = a.flag("colour_bar");
-  options.legend = a.flag("legend");
-  options.axes = a.flag("axes");
-  options.scale_bar = a.flag("scale_bar");
-  if (a.has("north"))
-    options.north = a.vec3("north");
   for (const Arguments& given : a.records("markers")) {
-    Marker marker;
-    marker.position = given.vec3("at");
-    marker.label = given.text_or("label", "");
+    Marker marker = marker_record.read(given);
     marker.colour = colour_of(given).value_or(marker.colour);
-    marker.size = given.number("size");
     options.markers.push_back(marker);
   }
   for (const Arguments& given : a.records("lines")) {
-    Polyline line;
-    for (const Value& point : given.list("points"))
-      line.points.push_back(to_vec3(point));
-    line.label = given.text_or("label", "");
+    Polyline line = line_record.read(given);
     line.colour = colour_of(given).value_or(line.colour);
-    line.width = given.number("width");
-    line.dashed = given.flag("dashed");
     options.polylines.push_back(line);
   }
   return options;

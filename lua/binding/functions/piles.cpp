@@ -1,11 +1,11 @@
 // Piles: units of one shape hung over a ground, or laid on it, before there is a model of them.
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/schema/angles.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libcdem/step/errors.hpp"
@@ -42,12 +42,51 @@ std::optional<geom::PlanBox> plan_region(const Arguments& a) {
   return geom::PlanBox{corner("min"), corner("max")};
 }
 
+Field attitude_seed() {
+  return integer("seed").at_least(0).standard().doc("of the attitudes");
+}
+
+const Record<geom::DropOptions> drop_options{
+    {{attitude_seed(), &geom::DropOptions::seed},
+     {number("gap").above(0).unit("m").doc(
+          "between the spheres around units, and under the lowest layer; a tenth of the unit's height"),
+      &geom::DropOptions::gap},
+     {integer("layers")
+          .within(1, geom::max_drop_layers)
+          .doc("on top of each other; as few as the region allows when left out"),
+      &geom::DropOptions::layers}}};
+
+const Record<geom::LayerOptions> layer_options{
+    {{attitude_seed(), &geom::LayerOptions::seed},
+     {number("density").within(0.05, 1.5).standard().doc(
+          "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
+      &geom::LayerOptions::density},
+     {integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
+      &geom::LayerOptions::columns},
+     {number("gap").above(0).unit("m").doc("clear distance; 2e-5 of the unit's height"),
+      &geom::LayerOptions::gap},
+     {integer("attitudes")
+          .within(1, 1e6)
+          .standard()
+          .doc("of which those are taken that fit into the pattern, beside others"),
+      &geom::LayerOptions::attitudes},
+     {integer("nudges").within(0, 100000).standard().doc(
+          "steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by itself"),
+      &geom::LayerOptions::nudges},
+     {number("play").within(0, 1).standard().doc(
+          "how far along the contour a unit may be from its place, over its height"),
+      &geom::LayerOptions::play},
+     {friction_field("friction_angle")
+          .standard(15.0)
+          .doc("friction angle with which the units come to rest. Units of the lowest row are held, by more "
+               "than the slope's angle")},
+     {flag("walls").standard().doc("at both ends of the rows walls stand along the slope, on which units "
+                                   "lean; the pile's box ends there"),
+      &geom::LayerOptions::walls}}};
+
 Value drop(Session&, Object*, const Arguments& a) {
-  geom::DropOptions options;
-  options.gap = a.optional_number("gap");
+  geom::DropOptions options = drop_options.read(a);
   options.region = plan_region(a);
-  options.layers = a.has("layers") ? a.count("layers") : 0;
-  options.seed = static_cast<std::uint64_t>(a.integer("seed"));
   return std::make_shared<PileObject>(
       geom::drop_grid(a.object<TetMeshObject>("unit")->mesh, a.count("count"), ground_of(a), options));
 }
@@ -142,18 +181,9 @@ void tell(Session& session, const geom::Layer& layer, double density) {
 }
 
 Value lay(Session& session, Object*, const Arguments& a) {
-  geom::LayerOptions options;
-  options.density = a.number("density");
-  if (a.has("columns"))
-    options.columns = a.count("columns");
-  options.gap = a.optional_number("gap");
+  geom::LayerOptions options = layer_options.read(a);
   options.region = plan_region(a);
-  options.seed = static_cast<std::uint64_t>(a.integer("seed"));
-  options.attitudes = a.count("attitudes");
-  options.nudges = a.count("nudges");
-  options.play = a.number("play");
   options.friction = geom::portable::tan(radians(a.number("friction_angle")));
-  options.walls = a.flag("walls");
   const int count = a.count("count");
   LayingObserver observer(session, count);
   options.tell = [&](const geom::LayerProgress& now) { observer(now); };
@@ -206,28 +236,15 @@ Value walls(Session&, PileObject& self, const Arguments& a) {
       self.pile, ground_of(a), {a.optional_number("height"), a.optional_number("thickness")}));
 }
 
-Value poses(Session&, PileObject& self, const Arguments&) {
-  Values rows;
-  for (const geom::Pose& pose : self.pile.poses) {
-    Values rotation;
-    for (int i = 0; i < 3; ++i)
-      rotation.emplace_back(geom::Vec3(pose.rotation.row(i)));
-    rows.emplace_back(Table{{"centroid", pose.translation}, {"rotation", Table::list(std::move(rotation))}});
-  }
-  return Table::list(std::move(rows));
-}
-
-Value pile_box(Session&, PileObject& self, const Arguments&) {
-  const geom::Box box = geom::bounding_box(self.pile);
-  return Table{{"min", box.min}, {"max", box.max}};
-}
+const Record<geom::Pose> pose_record{
+    "Pose",
+    "Place and attitude of a unit.",
+    {{vec3("centroid").unit("m"), &geom::Pose::translation},
+     {list("rotation", vec3_type(), 3).required().doc("rows of the matrix that turns the unit"),
+      [](const geom::Pose& pose) { return as_value(pose.rotation); }}}};
 
 void bind_class(Module& m) {
-  m.records.push_back(
-      {"Pose",
-       "Place and attitude of a unit.",
-       {vec3("centroid").unit("m").required(),
-        list("rotation", vec3_type(), 3).required().doc("rows of the matrix that turns the unit")}});
+  m.records.push_back(pose_record);
   Class pile{"Pile", "Units of one shape, each with its place and attitude: made by cdem.drop, cdem.place, "
                      "cdem.read_pile and model:pile. The shape of a meshed body with one block for each."};
   pile.length = [](const Object& self) {
@@ -263,8 +280,13 @@ void bind_class(Module& m) {
                 "over the ground; that of the highest unit when left out, two units at least"),
             number("thickness").above(0).unit("m").doc("a unit's height when left out")},
            walls, "cdem.TetMesh");
-  pile.add("poses", "Place and attitude of each unit.", {}, poses, "cdem.Pose[]").ordered();
-  pile.add("box", "Smallest axis-aligned box that holds all units where they are.", {}, pile_box, "cdem.Box")
+  pile.add(
+          "poses", "Place and attitude of each unit.", {},
+          [](PileObject& self) { return pose_record.list(self.pile.poses); }, "cdem.Pose[]")
+      .ordered();
+  pile.add(
+          "box", "Smallest axis-aligned box that holds all units where they are.", {},
+          [](PileObject& self) { return geom::bounding_box(self.pile); }, "cdem.Box")
       .ordered();
   pile.add("save", "Writes the pile, for cdem.read_pile in another script.",
            {text("file").required().doc("ends in .json; in the output folder")}, save_pile);
@@ -279,50 +301,19 @@ void bind_piles(Module& m) {
       integer("count").within(1, 1e6).required().doc("how many units"),
       object("onto", "TetMesh").required().doc("the ground, z up; a slope's mesh"),
       record("region", {list("min", number_type(), 2).required(), list("max", number_type(), 2).required()})
-          .doc("part of the ground's plan, corners {x, y}; all of it when left out"),
-      integer("seed").at_least(0).standard(1).doc("of the attitudes")};
-  const auto with = [&](std::vector<Field> more) {
-    std::vector<Field> fields = unit;
-    fields.insert(fields.end(), more.begin(), more.end());
-    return fields;
-  };
+          .doc("part of the ground's plan, corners {x, y}; all of it when left out")};
   m.add(
       "drop",
       "Units that hang over the ground in random attitudes, to be dropped. They hang on a grid in the middle "
       "of the region, so far apart that they are clear of each other in every attitude. Rows run across the "
       "rise of the ground, the lowest first.",
-      with({number("gap").above(0).unit("m").doc(
-                "between the spheres around units, and under the lowest layer; a tenth of the unit's height"),
-            integer("layers")
-                .within(1, geom::max_drop_layers)
-                .doc("on top of each other; as few as the region allows when left out")}),
-      drop, "cdem.Pile");
-  m.add(
-      "place",
-      "One layer of armour units on a slope, in the staggered pattern of a packing density. The units are "
-      "laid row by row from the toe: each comes down above the gap between two units of the row below and "
-      "slides against them. Then the units come to rest together under their weight with friction. The "
-      "lowest row does not take part, as it is to be held.",
-      with({number("density").within(0.05, 1.5).standard(0.645).doc(
-                "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
-            integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
-            number("gap").above(0).unit("m").doc("clear distance; 2e-5 of the unit's height"),
-            integer("attitudes")
-                .within(1, 1e6)
-                .standard(1500)
-                .doc("of which those are taken that fit into the pattern, beside others"),
-            integer("nudges").within(0, 100000).standard(200).doc(
-                "steps of a unit on its way to rest, at most; 0: only lowered on to what is there, each by "
-                "itself"),
-            number("play").within(0, 1).standard(0.1).doc(
-                "how far along the contour a unit may be from its place, over its height"),
-            friction_field("friction_angle")
-                .standard(15.0)
-                .doc("friction angle with which the units come to rest. Units of the lowest row are held, by "
-                     "more than the slope's angle"),
-            flag("walls").standard(false).doc("at both ends of the rows walls stand along the slope, on "
-                                              "which units lean; the pile's box ends there")}),
-      lay, "cdem.Pile");
+      unit + drop_options.fields(), drop, "cdem.Pile");
+  m.add("place",
+        "One layer of armour units on a slope, in the staggered pattern of a packing density. The units are "
+        "laid row by row from the toe: each comes down above the gap between two units of the row below and "
+        "slides against them. Then the units come to rest together under their weight with friction. The "
+        "lowest row does not take part, as it is to be held.",
+        unit + layer_options.fields(), lay, "cdem.Pile");
   m.add("read_pile", "A pile that pile:save{} wrote.", {text("file").required()}, read_pile, "cdem.Pile");
   bind_class(m);
 }

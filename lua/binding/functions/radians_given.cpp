@@ -1,6 +1,6 @@
 #include "lua/binding/functions/radians_given.hpp"
 
-#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/schema/angles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // cdem.report: figures beside their references.
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -34,17 +34,26 @@ void tell_misses(Session& session, const std::vector<std::string>& given) {
     session.message("outside its tolerance: " + missed + " (report.md)");
 }
 
+const Record<Figure> figure_record{
+    {{text("name").required().doc("name of the figure, with its unit at the end, e.g. \"side_ux_max_m\""),
+      &Figure::name},
+     {plain("value").doc("number, text or boolean; leave out (nil) when there is none"), &Figure::value},
+     {text("unit"), &Figure::unit},
+     {plain("reference").doc("number, text or boolean to compare with"), &Figure::reference},
+     {choice("kind", {"formula", "paper", "fe", "trial"})
+          .doc("where the reference comes from; a trial figure is shown and never judged"),
+      &Figure::kind},
+     {text("source").doc("e.g. \"Han 2010 fig 7\""), &Figure::source},
+     {number("tolerance").at_least(0).doc("allowed |value - reference| over |reference|"),
+      &Figure::tolerance},
+     {number("tolerance_absolute").at_least(0).doc("the same in the figure's unit, instead of tolerance")}}};
+
 Value report(Session& session, Object*, const Arguments& arguments) {
   std::vector<std::string> names;
   for (const Arguments& given : arguments.records("figures")) {
-    Figure figure;
-    figure.name = given.text("name");
-    figure.value = finite_or_nil(session, figure.name, "value", given.value("value"));
-    figure.reference = finite_or_nil(session, figure.name, "reference", given.value("reference"));
-    figure.unit = given.text_or("unit", "");
-    figure.kind = given.text_or("kind", "");
-    figure.source = given.text_or("source", "");
-    figure.tolerance = given.optional_number("tolerance");
+    Figure figure = figure_record.read(given);
+    figure.value = finite_or_nil(session, figure.name, "value", figure.value);
+    figure.reference = finite_or_nil(session, figure.name, "reference", figure.reference);
     if (const auto absolute = given.optional_number("tolerance_absolute")) {
       if (figure.tolerance)
         throw geom::InputError(figure.name + ": give tolerance (relative) or tolerance_absolute, not both");
@@ -70,23 +79,13 @@ Value report(Session& session, Object*, const Arguments& arguments) {
 } // namespace
 
 void bind_report(Module& m) {
-  const std::vector<Field> figure{
-      text("name").required().doc("name of the figure, with its unit at the end, e.g. \"side_ux_max_m\""),
-      plain("value").doc("number, text or boolean; leave out (nil) when there is none"),
-      text("unit"),
-      plain("reference").doc("number, text or boolean to compare with"),
-      choice("kind", {"formula", "paper", "fe", "trial"})
-          .doc("where the reference comes from; a trial figure is shown and never judged"),
-      text("source").doc("e.g. \"Han 2010 fig 7\""),
-      number("tolerance").at_least(0).doc("allowed |value - reference| over |reference|"),
-      number("tolerance_absolute").at_least(0).doc("the same in the figure's unit, instead of tolerance"),
-  };
   m.add("report",
         "Writes figures beside their references to report.json and report.md in the output folder. Further "
         "calls add figures; a name given again takes the place of the earlier one. Numbers that are not "
         "finite become null, with a warning. Booleans are judged by equality. The warnings of the run stand "
         "in the report too.",
-        {list("figures", record_type(figure)).required().doc("the figures, in order")}, report)
+        {list("figures", record_type(figure_record.fields())).required().doc("the figures, in order")},
+        report)
       .ordered();
 }
 

@@ -1,9 +1,9 @@
 // Settling of piles, and the watch over units that leave their place.
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/films.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/module/record.hpp"
+#include "lua/binding/schema/angles.hpp"
 
 #include "libgeom/core/error.hpp"
 
@@ -56,8 +56,7 @@ const Record<SettleResult> settle_record{
      {integer("steps"), &SettleResult::steps},
      {number("time").unit("s").doc("it took of the model's"), &SettleResult::time},
      {integer("made_rigid").doc("units, while they fell"), &SettleResult::made_rigid},
-     {plain("phases").doc("a list of cdem.SettlePhase"),
-      [](const SettleResult& r) { return settle_phase.list(r.phases); }},
+     {plain("phases").doc("a list of cdem.SettlePhase"), &SettleResult::phases, settle_phase},
      {number("wall_time").unit("s"), &SettleResult::wall_time}}};
 
 Value watch(Session& session, ModelObject& model, const Arguments& a) {
@@ -72,16 +71,38 @@ double out_of_balance(const SettleResult& r) {
   return r.phases.empty() ? 0 : r.phases.back().residual;
 }
 
+const Record<SettleOptions> settle_options{
+    {{number("kinetic_energy_ratio")
+          .between(0, 1)
+          .standard()
+          .doc("goal: kinetic energy over the largest there was"),
+      &SettleOptions::kinetic_energy_ratio},
+     {flag("rigid").standard().doc("free units fall as rigid bodies"), &SettleOptions::rigid},
+     {number("local_damping")
+          .from(0, 1)
+          .standard()
+          .doc("of what touches: force against the motion as a fraction of the out-of-balance force "
+               "(Cundall)"),
+      &SettleOptions::local_damping},
+     {friction_field("friction_angle")
+          .doc("contacts have no more of it while units settle, so that they slide until they lean on more; "
+               "each its own when left out, and afterwards"),
+      &SettleOptions::friction_angle},
+     {number("max_time").above(0).standard().unit("s").doc("of the model, then a warning"),
+      &SettleOptions::max_time},
+     {number("safety").within(0, 1).standard().doc(
+          "time step over the stable one; with more, contacts that open and close keep shaking"),
+      &SettleOptions::safety},
+     {number("time_step")
+          .above(0)
+          .unit("s")
+          .doc("of the rigid fall, at most the stable one, which it is by default"),
+      &SettleOptions::time_step},
+     {integer("every").at_least(1).doc("steps between calls, 100 by default; in whole twenties")},
+     {function("callback", "()").doc("called every so many steps; may read the model and write files")}}};
+
 Value settle(Session& session, ModelObject& model, const Arguments& a) {
-  SettleOptions options;
-  options.kinetic_energy_ratio = a.number("kinetic_energy_ratio");
-  options.rigid = a.flag("rigid");
-  options.local_damping = a.number("local_damping");
-  if (const auto angle = a.optional_number("friction_angle"))
-    options.friction_angle = radians(*angle);
-  options.max_time = a.number("max_time");
-  options.safety = a.number("safety");
-  options.time_step = a.optional_number("time_step").value_or(0);
+  SettleOptions options = settle_options.read(a);
   if (const auto function = a.function("callback")) {
     options.callback_every = a.has("every") ? a.integer("every") : 100;
     options.callback = [&session, function] { session.checkpoints.call_back("callback", *function, {}); };
@@ -111,7 +132,7 @@ Value settle(Session& session, ModelObject& model, const Arguments& a) {
 } // namespace
 
 void bind_settling(Module& m) {
-  m.records.push_back(departure);
+  m.records.insert(m.records.end(), {departure, settle_phase, settle_record});
   Class watched{"Watch", "Units that have left their place, in order: grows while the model runs."};
   watched.length = [](const Object& self) { return static_cast<std::int64_t>(watch_of(self).left().size()); };
   watched.item = [](const Object& self, std::int64_t i) { return departure(watch_of(self).left()[i - 1]); };
@@ -120,8 +141,6 @@ void bind_settling(Module& m) {
     return "cdem.Watch (" + std::to_string(watch_of(self).left().size()) + " left)";
   };
   m.classes.push_back(watched);
-
-  m.records.insert(m.records.end(), {settle_phase, settle_record});
 
   Class& model = m.the_class("Model");
   model.add("watch",
@@ -136,29 +155,7 @@ void bind_settling(Module& m) {
       "settle",
       "Lets units fall and come to rest: free ones as rigid bodies first, then deformable, until they are "
       "slow and carry their weight. Rigid units, damping and a lower friction are off afterwards.",
-      {number("kinetic_energy_ratio")
-           .between(0, 1)
-           .standard(1e-6)
-           .doc("goal: kinetic energy over the largest there was"),
-       flag("rigid").standard(true).doc("free units fall as rigid bodies"),
-       number("local_damping")
-           .from(0, 1)
-           .standard(0.5)
-           .doc("of what touches: force against the motion as a fraction of the out-of-balance force "
-                "(Cundall)"),
-       friction_field("friction_angle")
-           .doc("contacts have no more of it while units settle, so that they slide until they lean on more; "
-                "each its own when left out, and afterwards"),
-       number("max_time").above(0).standard(60.0).unit("s").doc("of the model, then a warning"),
-       number("safety").within(0, 1).standard(0.5).doc(
-           "time step over the stable one; with more, contacts that open and close keep shaking"),
-       number("time_step")
-           .above(0)
-           .unit("s")
-           .doc("of the rigid fall, at most the stable one, which it is by default"),
-       integer("every").at_least(1).doc("steps between calls, 100 by default; in whole twenties"),
-       function("callback", "()").doc("called every so many steps; may read the model and write files")},
-      settle, "cdem.SettleResult");
+      settle_options.fields(), settle, "cdem.SettleResult");
 }
 
 } // namespace cdem::script

@@ -1,11 +1,11 @@
 // Block assemblies: the builders of libgeom.
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/discs.hpp"
 #include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/schema/angles.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libgeom/assembly/builders.hpp"
@@ -36,43 +36,83 @@ Value one_box(Session&, Object*, const Arguments& a) {
   return made(geom::grid(a.vec3("size"), {1, 1, 1}, a.vec3("origin")));
 }
 
+Field block_size_field() {
+  return vec3("size").above(0).unit("m").required();
+}
+Field origin_field() {
+  return vec3("origin").unit("m").standard(Value(geom::Vec3(0, 0, 0))).doc("lower corner");
+}
+Field seed_field() {
+  return integer("seed").at_least(0).standard(1).doc("the same seed gives the same blocks on every machine");
+}
+
+const Record<geom::VoronoiOptions> voronoi_options{
+    {{block_size_field().doc("of the whole"), &geom::VoronoiOptions::size},
+     {integer("count").at_least(1).required().doc("number of blocks"), &geom::VoronoiOptions::count},
+     {seed_field(), &geom::VoronoiOptions::seed},
+     {integer("relaxations")
+          .within(0, 1000)
+          .standard()
+          .doc("Lloyd steps: each moves the points to their cells' centroids, which evens the cells out"),
+      &geom::VoronoiOptions::relaxations},
+     {flag("extruded").standard().doc("cells in x and y, one block through z"),
+      &geom::VoronoiOptions::extruded},
+     {origin_field(), &geom::VoronoiOptions::origin}}};
+
+const Record<geom::BrickOptions> brick_options{
+    {{block_size_field().doc("of the wall"), &geom::BrickOptions::size},
+     {vec3("brick").above(0).unit("m").required().doc("one brick"), &geom::BrickOptions::brick},
+     {number("shift").from(0, 1).standard().doc(
+          "of each course against the one below, as a fraction of the brick's length"),
+      &geom::BrickOptions::shift},
+     {origin_field(), &geom::BrickOptions::origin}}};
+
+const Record<geom::JointSet> joint_set{
+    {{number("dip").within(0, 90).in_degrees().required().doc("below the horizontal plane, z up"),
+      &geom::JointSet::dip},
+     {number("dip_direction")
+          .within(0, 360)
+          .in_degrees()
+          .required()
+          .doc("clockwise from +y (north) seen from above"),
+      &geom::JointSet::dip_direction},
+     {number("spacing").above(0).unit("m").required().doc("mean, along the normal"),
+      &geom::JointSet::spacing},
+     {number("spacing_scatter").from(0, 0.5).standard().doc("standard deviation over the mean"),
+      &geom::JointSet::spacing_scatter},
+     {number("dip_scatter").within(0, 90).in_degrees().standard().doc("standard deviation"),
+      &geom::JointSet::dip_scatter},
+     {number("direction_scatter").within(0, 360).in_degrees().standard().doc("standard deviation"),
+      &geom::JointSet::direction_scatter},
+     {vec3("origin").unit("m").doc("a plane runs through it; without it the planes are counted from the "
+                                   "lowest corner of the blocks along the normal"),
+      &geom::JointSet::origin},
+     {integer("count").at_least(1).doc(
+          "planes next to the origin, on both sides of it; next to the centre of the blocks where no origin "
+          "is given. As many as cross the blocks when left out"),
+      &geom::JointSet::count},
+     {number("persistence")
+          .within(0, 1)
+          .standard()
+          .doc("probability that a face belongs to the set, above 0. The other faces are bridges of rock, "
+               "which the body's joint holds; each face between two blocks is drawn by itself. Needs a name"),
+      &geom::JointSet::persistence},
+     {text("name").doc("of the set, for its law: a body's joints = { name = joint }"),
+      &geom::JointSet::name}}};
+
 Value voronoi(Session&, Object*, const Arguments& a) {
-  geom::VoronoiOptions options;
-  options.size = a.vec3("size");
-  options.origin = a.vec3("origin");
-  options.count = a.count("count");
-  options.seed = static_cast<std::uint64_t>(a.integer("seed"));
-  options.relaxations = a.count("relaxations");
-  options.extruded = a.flag("extruded");
-  return made(geom::voronoi(options));
+  return made(geom::voronoi(voronoi_options.read(a)));
 }
 
 Value bricks(Session&, Object*, const Arguments& a) {
-  geom::BrickOptions options;
-  options.size = a.vec3("size");
-  options.brick = a.vec3("brick");
-  options.shift = a.number("shift");
-  options.origin = a.vec3("origin");
-  return made(geom::bricks(options));
+  return made(geom::bricks(brick_options.read(a)));
 }
 
 Value cut_by_joints(Session& session, Object*, const Arguments& a) {
   std::vector<geom::JointSet> sets;
   std::vector<double> dips, directions; // deg
   for (const Arguments& given : a.records("sets")) {
-    geom::JointSet set;
-    set.dip = radians(given.number("dip"));
-    set.dip_direction = radians(given.number("dip_direction"));
-    set.spacing = given.number("spacing");
-    set.spacing_scatter = given.number("spacing_scatter");
-    set.dip_scatter = radians(given.number("dip_scatter"));
-    set.direction_scatter = radians(given.number("direction_scatter"));
-    set.name = given.text_or("name", "");
-    set.origin = given.optional_vec3("origin");
-    if (given.has("count"))
-      set.count = given.count("count");
-    set.persistence = given.number("persistence");
-    sets.push_back(set);
+    sets.push_back(joint_set.read(given));
     dips.push_back(given.number("dip"));
     directions.push_back(given.number("dip_direction"));
   }
@@ -98,15 +138,7 @@ Value cut_by_joints(Session& session, Object*, const Arguments& a) {
 
 Value read_discs(Session& session, Object*, const Arguments& a) {
   const std::string& name = a.text("file");
-  Values rows;
-  for (const geom::Disc& disc : geom::read_discs(read_file(session.files.to_read(name)), name))
-    rows.emplace_back(Table{{"id", disc.id},
-                            {"centre", disc.centre},
-                            {"dip", degrees(disc.dip)},
-                            {"dip_direction", degrees(disc.dip_direction)},
-                            {"radius", disc.radius},
-                            {"set", disc.set}});
-  return Table::list(std::move(rows));
+  return disc_record().list(geom::read_discs(read_file(session.files.to_read(name)), name));
 }
 
 Value cut_by_discs(Session& session, Object*, const Arguments& a) {
@@ -141,15 +173,11 @@ Value convex_hull(Session&, Object*, const Arguments& a) {
 }
 
 std::optional<geom::Box> optional_box(const Arguments& a, const std::string& name) {
-  const auto given = a.record(name);
-  if (!given)
+  if (!a.has(name))
     return {};
-  geom::Box box;
-  box.min = given->vec3("min");
-  box.max = given->vec3("max");
+  const geom::Box box = a.box(name);
   if ((box.min.array() > box.max.array()).any())
-    throw geom::InputError(name + ".min", describe(given->value("min")),
-                           "below " + name + ".max in every axis");
+    throw geom::InputError(name + ".min", describe(box.min), "below " + name + ".max in every axis");
   return box;
 }
 
@@ -178,16 +206,30 @@ Splinters splinters_of(const geom::Assembly& assembly) {
   return found;
 }
 
+const Record<geom::PlaneCutOptions> plane_cut{
+    {{box("inside").doc("only blocks whose centroid lies in this box")},
+     {box("crossing").doc("only blocks that reach into this box: the notch or the load line to be cut")},
+     {number("clearance")
+          .at_least(0)
+          .unit("m")
+          .standard()
+          .doc("where a vertex of a block is nearer than this, the plane is shifted for that block"),
+      &geom::PlaneCutOptions::clearance},
+     {text("name").doc("of the cut, for its law: a body's joints = { name = joint }"),
+      &geom::PlaneCutOptions::name},
+     {flag("glued").standard().doc(
+          "a construction cut, such as an excavation outline: no joint; its faces hold the rock together, "
+          "stiff and unbreakable, whatever the body's joint. Where it runs along a joint that is there "
+          "already, the joint stays"),
+      &geom::PlaneCutOptions::glued}}};
+
 Value cut_by_plane(Session& session, Object*, const Arguments& a) {
   const geom::Vec3 normal = a.vec3("normal");
   if (!(normal.norm() > 0))
     throw geom::InputError("normal", describe(a.value("normal")), "longer than zero");
-  geom::PlaneCutOptions options;
+  geom::PlaneCutOptions options = plane_cut.read(a);
   options.inside = optional_box(a, "inside");
   options.crossing = optional_box(a, "crossing");
-  options.clearance = a.number("clearance");
-  options.name = a.text_or("name", "");
-  options.glued = a.flag("glued");
   const geom::Assembly& whole = a.object<AssemblyObject>("shape")->assembly;
   geom::Assembly parts = geom::cut_by_plane(whole, geom::Plane::through(a.vec3("point"), normal), options);
   const Splinters splinters = splinters_of(parts);
@@ -222,28 +264,16 @@ double volume(const geom::Assembly& assembly) {
   return sum;
 }
 
-Value assembly_blocks(Session&, AssemblyObject& self, const Arguments&) {
-  Values rows;
-  for (const geom::Polyhedron& block : self.assembly.blocks) {
-    const geom::MassProperties mass = geom::mass_properties(block);
-    Values vertices(block.vertices.begin(), block.vertices.end());
-    rows.emplace_back(Table{{"centroid", mass.centroid},
-                            {"volume", mass.volume},
-                            {"faces", static_cast<std::int64_t>(block.faces.size())},
-                            {"vertices", Table::list(std::move(vertices))}});
-  }
-  return Table::list(std::move(rows));
-}
-
-Field block_size_field() {
-  return vec3("size").above(0).unit("m").required();
-}
-Field origin_field() {
-  return vec3("origin").unit("m").standard(Value(geom::Vec3(0, 0, 0))).doc("lower corner");
-}
-Field seed_field() {
-  return integer("seed").at_least(0).standard(1).doc("the same seed gives the same blocks on every machine");
-}
+const Record<geom::Polyhedron> block_record{
+    "Block",
+    "One block of an assembly.",
+    {{vec3("centroid").unit("m"),
+      [](const geom::Polyhedron& block) { return geom::mass_properties(block).centroid; }},
+     {number("volume").unit("m3"),
+      [](const geom::Polyhedron& block) { return geom::mass_properties(block).volume; }},
+     {integer("faces").doc("number of faces"),
+      [](const geom::Polyhedron& block) { return block.faces.size(); }},
+     {list("vertices", vec3_type()).unit("m"), &geom::Polyhedron::vertices}}};
 
 void bind_builders(Module& m) {
   m.add("grid", "A box of equal boxes in rows.",
@@ -251,47 +281,15 @@ void bind_builders(Module& m) {
          ivec3("divisions").at_least(1).required().doc("boxes along x, y and z"), origin_field()},
         grid, "cdem.Assembly");
   m.add("box", "One box.", {block_size_field(), origin_field()}, one_box, "cdem.Assembly");
-  m.add("voronoi", "A box of Voronoi cells about seeded random points.",
-        {block_size_field().doc("of the whole"),
-         integer("count").at_least(1).required().doc("number of blocks"), seed_field(),
-         integer("relaxations")
-             .within(0, 1000)
-             .standard(3)
-             .doc("Lloyd steps: each moves the points to their cells' centroids, which evens the cells out"),
-         flag("extruded").standard(false).doc("cells in x and y, one block through z"), origin_field()},
-        voronoi, "cdem.Assembly");
+  m.add("voronoi", "A box of Voronoi cells about seeded random points.", voronoi_options.fields(), voronoi,
+        "cdem.Assembly");
   m.add("bricks", "A wall in running bond: courses laid along z, bricks running along x, the end bricks cut.",
-        {block_size_field().doc("of the wall"), vec3("brick").above(0).unit("m").required().doc("one brick"),
-         number("shift").from(0, 1).standard(0.5).doc(
-             "of each course against the one below, as a fraction of the brick's length"),
-         origin_field()},
-        bricks, "cdem.Assembly");
-  const std::vector<Field> set{
-      number("dip").within(0, 90).unit("deg").required().doc("below the horizontal plane, z up"),
-      number("dip_direction")
-          .within(0, 360)
-          .unit("deg")
-          .required()
-          .doc("clockwise from +y (north) seen from above"),
-      number("spacing").above(0).unit("m").required().doc("mean, along the normal"),
-      number("spacing_scatter").from(0, 0.5).standard(0.0).doc("standard deviation over the mean"),
-      number("dip_scatter").within(0, 90).unit("deg").standard(0.0).doc("standard deviation"),
-      number("direction_scatter").within(0, 360).unit("deg").standard(0.0).doc("standard deviation"),
-      vec3("origin").unit("m").doc("a plane runs through it; without it the planes are counted from the "
-                                   "lowest corner of the blocks along the normal"),
-      integer("count").at_least(1).doc(
-          "planes next to the origin, on both sides of it; next to the centre of the blocks where no origin "
-          "is given. As many as cross the blocks when left out"),
-      number("persistence")
-          .within(0, 1)
-          .standard(1.0)
-          .doc("probability that a face belongs to the set, above 0. The other faces are bridges of rock, "
-               "which the body's joint holds; each face between two blocks is drawn by itself. Needs a name"),
-      text("name").doc("of the set, for its law: a body's joints = { name = joint }")};
+        brick_options.fields(), bricks, "cdem.Assembly");
   m.add("cut_by_joints",
         "Cuts every block by the planes of joint sets, one set after the other, those with a persistence "
         "below 1 last.",
-        {object("shape", "Assembly").required(), list("sets", record_type(set)).required(), seed_field(),
+        {object("shape", "Assembly").required(), list("sets", record_type(joint_set.fields())).required(),
+         seed_field(),
          number("smallest")
              .at_least(0)
              .unit("m")
@@ -304,7 +302,8 @@ void bind_builders(Module& m) {
         "Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their "
         "centroid in the disc belong to its set; beyond it they are bridges of rock, which the body's joint "
         "holds.",
-        {object("shape", "Assembly").required(), list("discs", record_type(disc_fields())).required(),
+        {object("shape", "Assembly").required(),
+         list("discs", record_type(disc_record().fields())).required(),
          number("clearance")
              .at_least(0)
              .unit("m")
@@ -328,31 +327,15 @@ void bind_builders(Module& m) {
         {object("mesh", "TetMesh").required()}, blocks_of_mesh, "cdem.Assembly");
 }
 
-Field box_field(std::string name) {
-  return record(std::move(name), {vec3("min").unit("m").required(), vec3("max").unit("m").required()});
-}
-
 void bind_edits(Module& m) {
   const Field shape = object("shape", "Assembly").required().doc("left as it is; the result is a new one");
   m.add("cut_by_plane", "Splits every block that a plane crosses.",
-        {shape, vec3("point").unit("m").required().doc("any point of the plane"),
-         vec3("normal").required().doc("of any length"),
-         box_field("inside").doc("only blocks whose centroid lies in this box"),
-         box_field("crossing")
-             .doc("only blocks that reach into this box: the notch or the load line to be cut"),
-         number("clearance")
-             .at_least(0)
-             .unit("m")
-             .standard(0.0)
-             .doc("where a vertex of a block is nearer than this, the plane is shifted for that block"),
-         text("name").doc("of the cut, for its law: a body's joints = { name = joint }"),
-         flag("glued").standard(false).doc(
-             "a construction cut, such as an excavation outline: no joint; its faces hold the rock together, "
-             "stiff and unbreakable, whatever the body's joint. Where it runs along a joint that is there "
-             "already, the joint stays")},
+        std::vector<Field>{shape, vec3("point").unit("m").required().doc("any point of the plane"),
+                           vec3("normal").required().doc("of any length")} +
+            plane_cut.fields(),
         cut_by_plane, "cdem.Assembly");
-  m.add("keep", "The blocks whose centroid lies in a box.", {shape, box_field("inside").required()},
-        keep_blocks, "cdem.Assembly");
+  m.add("keep", "The blocks whose centroid lies in a box.", {shape, box("inside").required()}, keep_blocks,
+        "cdem.Assembly");
   m.add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate,
         "cdem.Assembly");
   m.add("rotate", "Turns blocks, right-handed, about an axis through `centre`.",
@@ -369,13 +352,8 @@ void bind_shapes(Module& m) {
   bind_builders(m);
   bind_edits(m);
 
-  m.records.push_back(
-      {"Box", "An axis-aligned box.", {vec3("min").unit("m").required(), vec3("max").unit("m").required()}});
-  m.records.push_back({"Block",
-                       "One block of an assembly.",
-                       {vec3("centroid").unit("m").required(), number("volume").unit("m3").required(),
-                        integer("faces").required().doc("number of faces"),
-                        list("vertices", vec3_type()).unit("m").required()}});
+  m.records.insert(m.records.end(),
+                   {RecordType{"Box", "An axis-aligned box.", box("").type.fields}, block_record});
   Class assembly{"Assembly", "Convex blocks, made by the builders; #assembly is the number of blocks."};
   assembly.length = [](const Object& self) {
     return static_cast<std::int64_t>(static_cast<const AssemblyObject&>(self).assembly.blocks.size());
@@ -392,25 +370,19 @@ void bind_shapes(Module& m) {
   assembly
       .add(
           "box", "Smallest axis-aligned box that holds all blocks.", {},
-          [](AssemblyObject& self) {
-            const geom::Box box = geom::bounding_box(self.assembly);
-            return Table{{"min", box.min}, {"max", box.max}};
-          },
-          "cdem.Box")
+          [](AssemblyObject& self) { return geom::bounding_box(self.assembly); }, "cdem.Box")
       .ordered();
   assembly
       .add(
           "joint_sets",
           "Names of the joint sets and cuts that made faces of the blocks, in the order of the alphabet.", {},
-          [](AssemblyObject& self) {
-            Values names;
-            for (const std::string& name : geom::cut_names(self.assembly))
-              names.emplace_back(name);
-            return Table::list(std::move(names));
-          },
-          "string[]")
+          [](AssemblyObject& self) { return geom::cut_names(self.assembly); }, "string[]")
       .ordered();
-  assembly.add("blocks", "One table per block.", {}, assembly_blocks, "cdem.Block[]").ordered();
+  assembly
+      .add(
+          "blocks", "One table per block.", {},
+          [](AssemblyObject& self) { return block_record.list(self.assembly.blocks); }, "cdem.Block[]")
+      .ordered();
   assembly.add("solid",
                "The blocks as one solid with a region for each, in their order. Its mesh shares nodes on the "
                "faces between them. As the shape of a body, such a mesh breaks along the faces of the blocks "

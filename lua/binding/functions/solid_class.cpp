@@ -1,8 +1,8 @@
 // What a script can ask of a solid, and do with one.
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/schema/angles.hpp"
 #include "lua/binding/session/session.hpp"
 #include "lua/binding/text/nearest.hpp"
 
@@ -38,11 +38,9 @@ Value inertia(Session&, SolidObject& self, const Arguments& a) {
 }
 
 geom::Box box_of(const Arguments& given, const std::string& path) {
-  geom::Box box;
-  box.min = given.vec3("min");
-  box.max = given.vec3("max");
+  const geom::Box box = given.box("box");
   if (!(box.min.array() < box.max.array()).all())
-    throw InputError(path + ".min", describe(given.value("min")), "below " + path + ".max in every axis");
+    throw InputError(path + ".min", describe(box.min), "below " + path + ".max in every axis");
   return box;
 }
 
@@ -71,8 +69,8 @@ Value mesh(Session& session, SolidObject& self, const Arguments& a) {
       refinement.line = {*at};
     for (const Value& point : given.list("line"))
       refinement.line.push_back(to_vec3(point));
-    if (const auto box = given.record("box"))
-      refinement.box = box_of(*box, path + ".box");
+    if (given.has("box"))
+      refinement.box = box_of(given, path + ".box");
     sizes.refinements.push_back(refinement);
   }
   auto object = std::make_shared<TetMeshObject>(geom::mesh_solid(self.solid, sizes));
@@ -102,8 +100,7 @@ Value save_solid(Session& session, SolidObject& self, const Arguments& a) {
 void add_methods(Class& solid) {
   const std::vector<Field> refinement{
       vec3("at").unit("m").doc("near a point"),
-      list("line", vec3_type(), 2).unit("m").doc("along a line, an edge"),
-      record("box", {vec3("min").unit("m").required(), vec3("max").unit("m").required()}).doc("in a box"),
+      list("line", vec3_type(), 2).unit("m").doc("along a line, an edge"), box("box").doc("in a box"),
       number("size").above(0).unit("m").required(),
       number("radius").at_least(0).unit("m").standard(0.0).doc("how far the size holds")};
   solid
@@ -114,23 +111,14 @@ void add_methods(Class& solid) {
   solid
       .add(
           "regions", "Volume of each region, m3.", {},
-          [](SolidObject& self) {
-            const auto volumes = geom::region_volumes(self.solid);
-            return Table::list({volumes.begin(), volumes.end()});
-          },
-          "number[]")
+          [](SolidObject& self) { return geom::region_volumes(self.solid); }, "number[]")
       .ordered();
   solid
       .add(
           "box",
           "Axis-aligned box around the solid; where curved faces are cut by others it may be up to 1 % too "
           "large.",
-          {},
-          [](SolidObject& self) {
-            const geom::Box box = geom::bounding_box(self.solid);
-            return Table{{"min", box.min}, {"max", box.max}};
-          },
-          "cdem.Box")
+          {}, [](SolidObject& self) { return geom::bounding_box(self.solid); }, "cdem.Box")
       .ordered();
   solid.add(
       "inertia", "Mass, centroid and inertia about the centroid.",
@@ -173,26 +161,37 @@ void add_methods(Class& solid) {
 
 } // namespace
 
+namespace {
+
+struct Inertia {
+  double mass;
+  geom::Vec3 centroid;
+  geom::Mat3 tensor;
+  double ratio;
+};
+
+const Record<Inertia> inertia_record{
+    "Inertia",
+    "About the centroid.",
+    {{number("mass").unit("kg"), &Inertia::mass},
+     {vec3("centroid").unit("m"), &Inertia::centroid},
+     {list("tensor", vec3_type()).unit("kg m2").doc("three rows"), &Inertia::tensor},
+     {vec3("principal").unit("kg m2").doc("ascending"),
+      [](const Inertia& inertia) {
+        const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(inertia.tensor, Eigen::EigenvaluesOnly);
+        return geom::Vec3(solver.eigenvalues());
+      }},
+     {number("principal_ratio").doc("largest over smallest of them"), &Inertia::ratio}}};
+
+} // namespace
+
 Value inertia_table(const geom::MassProperties& mass, double density) {
-  const geom::Mat3 tensor = density * mass.inertia;
-  Values rows;
-  for (int i = 0; i < 3; ++i)
-    rows.emplace_back(geom::Vec3(tensor.row(i)));
-  const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(tensor, Eigen::EigenvaluesOnly);
-  return Table{{"mass", density * mass.volume},
-               {"centroid", mass.centroid},
-               {"tensor", Table::list(std::move(rows))},
-               {"principal", geom::Vec3(solver.eigenvalues())},
-               {"principal_ratio", geom::principal_inertia_ratio(mass)}};
+  return inertia_record(
+      {density * mass.volume, mass.centroid, density * mass.inertia, geom::principal_inertia_ratio(mass)});
 }
 
 void bind_solid_class(Module& m) {
-  m.records.push_back({"Inertia",
-                       "About the centroid.",
-                       {number("mass").unit("kg").required(), vec3("centroid").unit("m").required(),
-                        list("tensor", vec3_type()).unit("kg m2").required().doc("three rows"),
-                        vec3("principal").unit("kg m2").required().doc("ascending"),
-                        number("principal_ratio").required().doc("largest over smallest of them")}});
+  m.records.push_back(inertia_record);
   Class solid{"Solid", "A free-form solid, made by cdem.solid.* and the armour units; it never changes."};
   solid.property("height", "number?", "m", "of an armour unit as it was made",
                  [](const SolidObject& self) { return self.height; });

@@ -32,13 +32,7 @@ std::int64_t history_interval(const Arguments& a) {
 }
 
 Value relax_result(const RelaxResult& r, const std::string& trial) {
-  Table table{
-      {"converged", r.converged}, {"verdict", name(r.verdict)},         {"steps", r.steps},
-      {"residual", r.residual},   {"broken_tension", r.broken_tension}, {"broken_shear", r.broken_shear},
-      {"wall_time", r.wall_time}};
-  if (r.moving > 0)
-    table.named.insert(
-        {{"moving", r.moving}, {"moving_block", r.moving_block}, {"moving_place", r.moving_place}});
+  Table table = relax_record(r);
   if (!trial.empty())
     table.named["trial"] = trial;
   return table;
@@ -64,17 +58,45 @@ void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResu
     session.message(found);
 }
 
+Field breaking() {
+  return flag("breaking").standard().doc("bonds may break");
+}
+Field every() {
+  return integer("every").at_least(1).doc("steps between calls, 100 by default; without a callback steps "
+                                          "between samples of the history from here on, 10 at first");
+}
+Field callback() {
+  return function("callback", "()").doc("called every so many steps; may read the model and write files");
+}
+
+const Record<RelaxOptions> relax_options{
+    {{number("residual")
+          .between(0, 1)
+          .standard()
+          .doc("goal: out-of-balance force norm over applied force norm"),
+      &RelaxOptions::residual},
+     {breaking(), &RelaxOptions::breaking},
+     {integer("max_steps").at_least(1).standard().doc("gives up with converged = false, undecided"),
+      &RelaxOptions::max_steps},
+     {flag("stop_on_failure")
+          .standard(true)
+          .doc(
+              "ends where the model runs away, with the verdict \"failing\"; false: goes on, for a fall that "
+              "something may catch"),
+      &RelaxOptions::stop_on_failure},
+     {text("trial").doc(
+          "name of a trial, \"F = 1.2\", for progress, log and report; that it fails is then an "
+          "answer and no warning"),
+      &RelaxOptions::note},
+     {every()},
+     {callback()}}};
+
 Value relax(Session& session, ModelObject& model, const Arguments& a) {
-  RelaxOptions options;
-  options.residual = a.number("residual");
-  options.breaking = a.flag("breaking");
-  options.max_steps = a.integer("max_steps");
+  RelaxOptions options = relax_options.read(a);
   options.callback_every = callback_interval(a);
   options.callback = callback_of(session, a);
   options.history_every = history_interval(a);
   options.looks = film_looks(session, model);
-  options.stop_on_failure = a.flag("stop_on_failure");
-  options.note = a.text_or("trial", "");
   model.trial = model.trial || !options.note.empty();
   warn_if_nothing_acts(session, model, "relax");
   return stage(session, model, "relax", a, relax_result({}, options.note),
@@ -101,19 +123,38 @@ const Record<RunResult> run_record{
      {number("wall_time").unit("s"), &RunResult::wall_time},
      {mass_scaling_result_field()}}};
 
+const Record<RunOptions> run_options{
+    {{number("duration").above(0).unit("s"), &RunOptions::duration},
+     {integer("steps").at_least(1).doc("instead of duration"), &RunOptions::steps},
+     {number("safety")
+          .above(0)
+          .up_to(1)
+          .doc("time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most")
+          .standard(),
+      &RunOptions::safety},
+     {number("time_step")
+          .above(0)
+          .unit("s")
+          .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
+      &RunOptions::time_step},
+     {mass_scaling_field()},
+     {breaking(), &RunOptions::breaking},
+     {number("local_damping")
+          .from(0, 1)
+          .standard()
+          .doc("force against the motion as a fraction of the out-of-balance force (Cundall)"),
+      &RunOptions::local_damping},
+     {every()},
+     {callback()},
+     {function("stop", "(): boolean").doc("ends the stage when it returns true")}}};
+
 Value run(Session& session, ModelObject& model, const Arguments& a) {
-  RunOptions options;
-  options.duration = a.optional_number("duration").value_or(0);
-  options.steps = a.has("steps") ? a.integer("steps") : 0;
+  RunOptions options = run_options.read(a);
   if (a.has("duration") && a.has("steps"))
     throw InputError("duration and steps: give one of them");
   if (!a.has("duration") && !a.has("steps") && !a.has("stop"))
     throw InputError("duration: missing; give duration (s), steps, or stop = function() ... end");
-  options.safety = a.number("safety");
-  options.time_step = a.optional_number("time_step").value_or(0);
   options.mass_scaling = mass_scaling_of(a);
-  options.breaking = a.flag("breaking");
-  options.local_damping = a.number("local_damping");
   options.callback_every = callback_interval(a);
   options.callback = callback_of(session, a);
   options.history_every = history_interval(a);
@@ -149,7 +190,7 @@ Value stages(Session& session, ModelObject& model, const Arguments&) {
   Values rows;
   for (const Stage& stage : session.stages)
     if (stage.model == model.number)
-      rows.push_back(stage_row(stage));
+      rows.push_back(stage_record(stage));
   return Table::list(std::move(rows));
 }
 
@@ -159,83 +200,43 @@ Value after_stage(Session&, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-Field every() {
-  return integer("every").at_least(1).doc("steps between calls, 100 by default; without a callback steps "
-                                          "between samples of the history from here on, 10 at first");
-}
-Field callback() {
-  return function("callback", "()").doc("called every so many steps; may read the model and write files");
-}
-Field breaking() {
-  return flag("breaking").standard(true).doc("bonds may break");
-}
-
-void bind_results(Module& m) {
-  m.records.push_back(
-      {"RelaxResult",
-       "What a relaxation came to.",
-       {flag("converged").required(),
-        choice("verdict", {"stable", "failing", "undecided"})
-            .required()
-            .doc("stable: converged; failing: it runs away; undecided: max_steps came before either"),
-        integer("steps").required(), number("residual").required(),
-        integer("broken_tension").required().doc("bonds, in this stage"),
-        integer("broken_shear").required().doc("bonds, in this stage"),
-        number("wall_time").unit("s").required(),
-        number("moving").unit("m").doc(
-            "what the fastest node moved in the last 200 steps that were looked at"),
-        integer("moving_block").doc("its block"),
-        vec3("moving_place").unit("m").doc("where it was, undeformed"), text("trial").doc("as given")}});
-  m.records.push_back(run_record);
-  m.records.push_back({"Stage",
-                       "A solving call.",
-                       {integer("number").required().doc("over all models"), text("kind").required(),
-                        text("hash").required().doc("of its arguments"), plain("result").required()}});
+template <class X>
+std::optional<X> if_moving(const RelaxResult& r, const X& x) {
+  return r.moving > 0 ? std::optional<X>(x) : std::nullopt;
 }
 
 } // namespace
 
+const Record<RelaxResult> relax_record{
+    "RelaxResult",
+    "What a relaxation came to.",
+    {{flag("converged"), &RelaxResult::converged},
+     {choice("verdict", {"stable", "failing", "undecided"})
+          .doc("stable: converged; failing: it runs away; undecided: max_steps came before either"),
+      &RelaxResult::verdict},
+     {integer("steps"), &RelaxResult::steps},
+     {number("residual"), &RelaxResult::residual},
+     {integer("broken_tension").doc("bonds, in this stage"), &RelaxResult::broken_tension},
+     {integer("broken_shear").doc("bonds, in this stage"), &RelaxResult::broken_shear},
+     {number("wall_time").unit("s"), &RelaxResult::wall_time},
+     {number("moving").unit("m").doc("what the fastest node moved in the last 200 steps that were looked at"),
+      [](const RelaxResult& r) { return if_moving(r, r.moving); }},
+     {integer("moving_block").doc("its block"),
+      [](const RelaxResult& r) { return if_moving(r, r.moving_block); }},
+     {vec3("moving_place").unit("m").doc("where it was, undeformed"),
+      [](const RelaxResult& r) { return if_moving(r, r.moving_place); }},
+     {text("trial").doc("as given")}}};
+
 void bind_solving(Module& m) {
-  bind_results(m);
+  m.records.insert(m.records.end(), {relax_record, run_record, stage_record});
   Class& model = m.the_class("Model");
   model.add(
       "relax",
       "Dynamic relaxation to static balance, with fictitious masses and adaptive damping (Han 2010 eq 12). "
       "The verdict tells a model that stands from one that runs away (docs/theory.md, section 25).",
-      {number("residual")
-           .between(0, 1)
-           .standard(1e-6)
-           .doc("goal: out-of-balance force norm over applied force norm"),
-       breaking(),
-       integer("max_steps").at_least(1).standard(500000).doc("gives up with converged = false, undecided"),
-       flag("stop_on_failure")
-           .standard(true)
-           .doc("ends where the model runs away, with the verdict \"failing\"; false: goes on, for a fall "
-                "that something may catch"),
-       text("trial").doc("name of a trial, \"F = 1.2\", for progress, log and report; that it fails is then "
-                         "an answer and no warning"),
-       every(), callback()},
-      relax, "cdem.RelaxResult");
-  model
-      .add("run", "Explicit stepping in real time with the real masses.",
-           {number("duration").above(0).unit("s"), integer("steps").at_least(1).doc("instead of duration"),
-            number("safety")
-                .above(0)
-                .doc("time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most")
-                .standard(0.9),
-            number("time_step")
-                .above(0)
-                .unit("s")
-                .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
-            mass_scaling_field(), breaking(),
-            number("local_damping")
-                .from(0, 1)
-                .standard(0.0)
-                .doc("force against the motion as a fraction of the out-of-balance force (Cundall)"),
-            every(), callback(), function("stop", "(): boolean").doc("ends the stage when it returns true")},
-           run, "cdem.RunResult")
-      .fields[2]
-      .type.range = {0, 1, true, false};
+      relax_options.fields(), relax, "cdem.RelaxResult");
+  model.add("run", "Explicit stepping in real time with the real masses.", run_options.fields(), run,
+            "cdem.RunResult");
   model
       .add("after_stage",
            "Has a function called after every solving call from now on, for what each stage should leave "

@@ -16,6 +16,12 @@ void keep_unfinished(Session& session, ModelObject& model) {
   session.write_films();
 }
 
+std::string hash_text(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
 // A mistake in one would end a run after hours.
 void try_callbacks(const Checkpoints::Callbacks& callbacks, const Values& arguments) {
   for (const auto& [name, callback] : callbacks)
@@ -25,12 +31,13 @@ void try_callbacks(const Checkpoints::Callbacks& callbacks, const Values& argume
 
 } // namespace
 
-Value stage_row(const Stage& stage) {
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(stage.hash));
-  return Table{
-      {"number", stage.number}, {"kind", stage.kind}, {"hash", std::string(hash)}, {"result", stage.result}};
-}
+const Record<Stage> stage_record{
+    "Stage",
+    "A solving call.",
+    {{integer("number").doc("over all models"), &Stage::number},
+     {text("kind"), &Stage::kind},
+     {text("hash").doc("of its arguments"), [](const Stage& stage) { return hash_text(stage.hash); }},
+     {plain("result").required(), &Stage::result}}};
 
 Value stage(Session& session, ModelObject& model, const char* kind, const Arguments& arguments,
             const Value& empty, const std::function<Value(Simulation&)>& solve,
@@ -85,7 +92,7 @@ Value stage(Session& session, ModelObject& model, const char* kind, const Argume
     Solving solving(model);
     session.checkpoints.listen([&] {
       for (const auto& callback : model.after_stage)
-        callback->call({stage_row(session.stages[index])});
+        callback->call({stage_record(session.stages[index])});
     });
   }
   model.check_memory();

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/schema/schema.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 
 #include <functional>
 
 namespace cdem::script {
 
-// A stage as scripts see it: number, kind, hash, result.
-Value stage_row(const Stage&);
+extern const Record<Stage> stage_record;
+extern const Record<RelaxResult> relax_record;
 
 // Runs `solve` as the next stage, whose callbacks go through Checkpoints::call_back; in a check, calls each of them once
 // with `tried` and returns `empty` instead. The history is written however the stage ends; a model whose stage ended

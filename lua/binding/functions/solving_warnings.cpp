@@ -5,7 +5,7 @@
 #include "libcdem/results/one_way_energies.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/step/errors.hpp"
-#include "lua/binding/functions/angles.hpp"
+#include "lua/binding/schema/angles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -18,8 +18,8 @@ constexpr double small_share = 0.01; // of the volume of a model: a block whose 
 
 StrengthKinds kinds_of(const Arguments& a) {
   StrengthKinds kinds;
-  for (const Value& kind : a.list("reduce"))
-    (*kind.get<std::string>() == "joints" ? kinds.joints : kinds.blocks) = true;
+  for (const std::string& kind : a.texts("reduce"))
+    (kind == "joints" ? kinds.joints : kinds.blocks) = true;
   return kinds;
 }
 

@@ -1,10 +1,10 @@
 // Stereonets: poles of joints and great circles of planes, and the same as a table.
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/discs.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/objects.hpp"
+#include "lua/binding/schema/angles.hpp"
 #include "lua/binding/text/csv.hpp"
 
 #include "libcdem/vtk/stereonet.hpp"
@@ -165,7 +165,7 @@ void bind_stereonets(Module& m) {
                                         .required()
                                         .doc("{dip, dip_direction} (deg) of each"),
                                     colour_field()})),
-         list("discs", record_type(disc_fields())).doc("joints of finite size; poles by set"),
+         list("discs", record_type(disc_record().fields())).doc("joints of finite size; poles by set"),
          object("shape", "Assembly")
              .doc("blocks: poles of the planes that cut them, by joint set or name of the cut; glued cuts "
                   "are no joints"),

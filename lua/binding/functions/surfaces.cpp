@@ -170,11 +170,7 @@ void bind_surfaces(Module& m) {
   object
       .add(
           "box", "Smallest axis-aligned box that holds it.", {},
-          [](SurfaceObject& self) {
-            const geom::Box box = geom::bounding_box(self.surface);
-            return Table{{"min", box.min}, {"max", box.max}};
-          },
-          "cdem.Box")
+          [](SurfaceObject& self) { return geom::bounding_box(self.surface); }, "cdem.Box")
       .ordered();
   m.classes.push_back(object);
 }

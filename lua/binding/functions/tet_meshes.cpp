@@ -1,8 +1,8 @@
 // Meshes of tetrahedra: how good they are, which outer faces they have, files and pictures.
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/picture_fields.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/schema/angles.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libcdem/vtk/field_values.hpp"
@@ -76,14 +76,23 @@ const Record<geom::MeshQuality> mesh_quality{
      {number("min_radius_ratio").doc("3 r_inscribed / r_circumscribed: 1 regular, 0 flat"),
       &geom::MeshQuality::min_radius_ratio},
      {number("mean_radius_ratio"), &geom::MeshQuality::mean_radius_ratio},
-     {number("min_dihedral").unit("deg").doc("70.5 in a regular tetrahedron"),
-      [](const geom::MeshQuality& q) { return degrees(q.min_dihedral); }},
-     {number("max_dihedral").unit("deg"), [](const geom::MeshQuality& q) { return degrees(q.max_dihedral); }},
+     {number("min_dihedral").in_degrees().doc("70.5 in a regular tetrahedron"),
+      &geom::MeshQuality::min_dihedral},
+     {number("max_dihedral").in_degrees(), &geom::MeshQuality::max_dihedral},
      {number("min_height").unit("m").doc("corner to opposite face: limits the time step"),
       &geom::MeshQuality::min_height},
      {number("min_edge").unit("m"), &geom::MeshQuality::min_edge},
      {number("mean_edge").unit("m"), &geom::MeshQuality::mean_edge},
      {number("max_edge").unit("m"), &geom::MeshQuality::max_edge}}};
+
+const Record<geom::FaceGroup> face_group{
+    "FaceGroup",
+    "Outer faces of a mesh that were picked.",
+    {{integer("count").required()},
+     {number("area").unit("m2"), &geom::FaceGroup::area},
+     {vec3("centroid").unit("m"), &geom::FaceGroup::centroid},
+     {vec3("area_vector").unit("m2").doc("sum of outward normals times area"),
+      &geom::FaceGroup::area_vector}}};
 
 Table quality(TetMeshObject& self) {
   return mesh_quality(geom::quality(self.mesh));
@@ -116,11 +125,9 @@ Value mesh_faces(Session&, TetMeshObject& self, const Arguments& a) {
                                            " to " + describe(geom::bounding_box(self.mesh).max)));
   if (a.has("name"))
     self.mesh.named[a.text("name")] = chosen;
-  const geom::FaceGroup group = geom::measure(self.mesh, self.faces, chosen);
-  return Table{{"count", static_cast<std::int64_t>(chosen.size())},
-               {"area", group.area},
-               {"centroid", group.centroid},
-               {"area_vector", group.area_vector}};
+  Table group = face_group(geom::measure(self.mesh, self.faces, chosen));
+  group.named["count"] = as_value(chosen.size());
+  return group;
 }
 
 Value save_mesh(Session& session, TetMeshObject& self, const Arguments& a) {
@@ -160,15 +167,6 @@ std::vector<Field> mesh_picture_declaration() {
   return fields;
 }
 
-void bind_mesh_records(Module& m) {
-  m.records.push_back(mesh_quality);
-  m.records.push_back({"FaceGroup",
-                       "Outer faces of a mesh that were picked.",
-                       {integer("count").required(), number("area").unit("m2").required(),
-                        vec3("centroid").unit("m").required(),
-                        vec3("area_vector").unit("m2").required().doc("sum of outward normals times area")}});
-}
-
 } // namespace
 
 void bind_tet_meshes(Module& m) {
@@ -206,7 +204,7 @@ void bind_tet_meshes(Module& m) {
          vec3("front").unit("m").doc("a place on the side that bodies touch, such as the middle of a drum; "
                                      "where the triangles' normals point when left out")},
         shell_mesh, "cdem.TetMesh");
-  bind_mesh_records(m);
+  m.records.insert(m.records.end(), {mesh_quality, face_group});
   Class mesh{"TetMesh", "Tetrahedra, made by solid:mesh{} or cdem.read_mesh."};
   const auto of = [](const Object& self) -> const TetMeshObject& {
     return static_cast<const TetMeshObject&>(self);
@@ -233,11 +231,7 @@ void bind_tet_meshes(Module& m) {
       .ordered();
   mesh.add(
           "box", "Smallest axis-aligned box that holds all nodes.", {},
-          [](TetMeshObject& self) {
-            const geom::Box box = geom::bounding_box(self.mesh);
-            return Table{{"min", box.min}, {"max", box.max}};
-          },
-          "cdem.Box")
+          [](TetMeshObject& self) { return geom::bounding_box(self.mesh); }, "cdem.Box")
       .ordered();
   mesh.add(
       "inertia", "Mass, centroid and inertia about the centroid of the tetrahedra.",

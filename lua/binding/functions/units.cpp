@@ -46,28 +46,38 @@ Value pile(Session&, ModelObject& model, const Arguments& a) {
   return std::make_shared<PileObject>(std::move(now));
 }
 
-void add(const geom::PileMeasures& m, Table& table) {
-  table.named.insert({{"porosity", m.porosity},
-                      {"porosity_error", m.porosity_error},
-                      {"units_per_area", m.units_per_area},
-                      {"units_per_area_times_dn2", m.packing_density},
-                      {"thickness", m.thickness},
-                      {"area", m.area}});
-}
+const Record<geom::PileMeasures> layer_record{
+    {{number("porosity")
+          .doc("between the slope and the mean top of the pile; nil, as the next five, with a warning where "
+               "the pile is too small to measure or reaches beside its ground"),
+      &geom::PileMeasures::porosity},
+     {number("porosity_error").doc("change when every second column is left out"),
+      &geom::PileMeasures::porosity_error},
+     {number("units_per_area").unit("1/m2").doc("volume of solid over area and unit volume"),
+      &geom::PileMeasures::units_per_area},
+     {number("units_per_area_times_dn2").doc("packing density phi = N Dn^2 / A"),
+      &geom::PileMeasures::packing_density},
+     {number("thickness").unit("m").doc("mean height of the top above the slope"),
+      &geom::PileMeasures::thickness},
+     {number("area").unit("m2").doc("of slope that was measured"), &geom::PileMeasures::area}}};
 
-Table contacts_table(const std::vector<int>& touching) {
-  const double sum = std::accumulate(touching.begin(), touching.end(), 0.0);
-  return Table{{"contacts_per_unit", sum / static_cast<double>(touching.size())},
-               {"fewest_contacts", *std::min_element(touching.begin(), touching.end())},
-               {"contacts", Table::list(Values(touching.begin(), touching.end()))}};
-}
+const Record<std::vector<int>> touching_record{
+    // other blocks that press on each unit
+    {{number("contacts_per_unit").required().doc("mean number of other meshed blocks that press on a unit"),
+      [](const std::vector<int>& touching) {
+        return std::accumulate(touching.begin(), touching.end(), 0.0) / static_cast<double>(touching.size());
+      }},
+     {integer("fewest_contacts").required().doc("of any unit"),
+      [](const std::vector<int>& touching) { return *std::min_element(touching.begin(), touching.end()); }},
+     {list("contacts", number_type()).required().doc("of each unit"),
+      [](const std::vector<int>& touching) { return touching; }}}};
 
 Value measures(Session& session, ModelObject& model, const Arguments& a) {
   const geom::Pile& first = first_pile(model, a.text("body"));
   require_body(model, "onto", a.text("onto"));
   if (session.settings.check_only) {
-    Table table = contacts_table({0});
-    add({}, table);
+    Table table = touching_record({0});
+    table.named.merge(layer_record({}).named);
     return table;
   }
   geom::Surface ground;
@@ -80,11 +90,11 @@ Value measures(Session& session, ModelObject& model, const Arguments& a) {
       ground.triangles.push_back(t);
     }
   }
-  Table table = contacts_table(model.simulation.touching(a.text("body")));
+  Table table = touching_record(model.simulation.touching(a.text("body")));
   try {
-    add(geom::measure_pile(model.simulation.surfaces(a.text("body")), ground, first.height,
-                           geom::volume(first.unit)),
-        table);
+    table.named.merge(layer_record(geom::measure_pile(model.simulation.surfaces(a.text("body")), ground,
+                                                      first.height, geom::volume(first.unit)))
+                          .named);
   } catch (const InputError& unmeasurable) {
     session.warn(std::string("pile_measures: ") + unmeasurable.what() +
                  "; porosity, density and thickness are nil, the contacts are told");
@@ -119,21 +129,10 @@ Value furthest(ModelObject& model, const Arguments& a, double sign) {
 } // namespace
 
 void bind_units(Module& m) {
-  m.records.push_back(
-      {"PileMeasures",
-       "How densely units lie on a slope, away from the edge of the pile by about one unit.",
-       {number("porosity")
-            .doc("between the slope and the mean top of the pile; nil, as the next five, with a warning "
-                 "where the "
-                 "pile is too small to measure or reaches beside its ground"),
-        number("porosity_error").doc("change when every second column is left out"),
-        number("units_per_area").unit("1/m2").doc("volume of solid over area and unit volume"),
-        number("units_per_area_times_dn2").doc("packing density phi = N Dn^2 / A"),
-        number("thickness").unit("m").doc("mean height of the top above the slope"),
-        number("area").unit("m2").doc("of slope that was measured"),
-        number("contacts_per_unit").required().doc("mean number of other meshed blocks that press on a unit"),
-        integer("fewest_contacts").required().doc("of any unit"),
-        list("contacts", number_type()).required().doc("of each unit")}});
+  RecordType measured{"PileMeasures",
+                      "How densely units lie on a slope, away from the edge of the pile by about one unit.",
+                      layer_record.fields() + RecordType(touching_record).fields};
+  m.records.push_back(std::move(measured));
   m.records.push_back(contacts_record);
   Class& model = m.the_class("Model");
   const Field body = text("body").required().doc("name of a meshed body");

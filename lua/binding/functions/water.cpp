@@ -1,7 +1,7 @@
 // Water in joints.
 #include "lua/binding/functions/over_place.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/session/selections.hpp"
@@ -26,8 +26,7 @@ Water water_of(const ModelObject& model, const Arguments& a, std::string& line) 
   Water water;
   water.on = one_selection(model, a.value("on"), "on");
   water.weight = a.number("weight");
-  for (const Value& set : a.list("joints"))
-    water.sets.push_back(*set.get<std::string>());
+  water.sets = a.texts("joints");
   if (static_cast<int>(a.has("level")) + static_cast<int>(a.has("water_table")) +
           static_cast<int>(a.has("pressure")) + static_cast<int>(a.has("table")) !=
       1)
@@ -59,6 +58,14 @@ Water water_of(const ModelObject& model, const Arguments& a, std::string& line) 
   return water;
 }
 
+const Record<WaterInJoints> water_sum{
+    "WaterInJoints",
+    "All the water in the joints of a model.",
+    {{integer("points").doc("of joints, under pressure"), &WaterInJoints::points},
+     {number("area").unit("m2"), &WaterInJoints::area},
+     {number("largest").unit("Pa").doc("pressure"), &WaterInJoints::largest},
+     {number("force").unit("N").doc("sum of pressure times area"), &WaterInJoints::force}}};
+
 Value water(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("water");
   std::string line;
@@ -68,18 +75,13 @@ Value water(Session& session, ModelObject& model, const Arguments& a) {
     session.warn(
         "water: gravity has a water_density too, whose buoyancy holds for blocks that water surrounds; "
         "where joints carry the pressure it counts twice: leave water_density out");
-  return Table{{"points", sum.points}, {"area", sum.area}, {"largest", sum.largest}, {"force", sum.force}};
+  return water_sum(sum);
 }
 
 } // namespace
 
 void bind_water(Module& m) {
-  m.records.push_back(
-      {"WaterInJoints",
-       "All the water in the joints of a model.",
-       {integer("points").required().doc("of joints, under pressure"), number("area").unit("m2").required(),
-        number("largest").unit("Pa").required().doc("pressure"),
-        number("force").unit("N").required().doc("sum of pressure times area")}});
+  m.records.push_back(water_sum);
   Class& model = m.the_class("Model");
   model
       .add("water",

@@ -30,6 +30,92 @@ std::shared_ptr<WaterObject> holding(std::shared_ptr<const WaterField> field, st
   return object;
 }
 
+Field density_of_water() {
+  return water_density_field("density").standard(1025.0).doc("sea water by default");
+}
+Field direction_field() {
+  return vec3("direction").standard().doc("of travel, horizontal");
+}
+Field level_field() {
+  return number("level").standard().unit("m").doc("z of still water");
+}
+Field depth_field() {
+  return number("depth").above(0).unit("m").required().doc("of still water");
+}
+
+const Record<WaveGiven> wave_given{
+    {{choice("theory", {"stream_function", "stokes", "airy"}).standard(), &WaveGiven::theory},
+     {number("height").above(0).unit("m").required().doc("crest over trough"), &WaveGiven::height},
+     {number("period").above(0).unit("s").doc("give it or length"), &WaveGiven::period},
+     {number("length").above(0).unit("m"), &WaveGiven::length},
+     {depth_field(), &WaveGiven::depth},
+     {level_field(), &WaveGiven::level},
+     {direction_field(), &WaveGiven::direction},
+     {vec3("crest_at").standard().unit("m").doc("where a crest stands at time 0"), &WaveGiven::crest_at},
+     {number("current").standard().unit("m/s").doc("along the direction, mean under water"),
+      &WaveGiven::current},
+     {integer("order").within(3, 50).standard().doc("of the stream function"), &WaveGiven::order},
+     {density_of_water(), &WaveGiven::density}}};
+
+const Record<SeaGiven> sea_given{
+    {{number("significant_height").above(0).unit("m").required(), &SeaGiven::significant_height},
+     {number("peak_period").above(0).unit("s").required(), &SeaGiven::peak_period},
+     {depth_field(), &SeaGiven::depth},
+     {level_field(), &SeaGiven::level},
+     {number("peak_enhancement").within(1, 20).standard().doc("gamma; 1: Pierson and Moskowitz"),
+      &SeaGiven::peak_enhancement},
+     {direction_field(), &SeaGiven::direction},
+     {vec3("origin").standard().unit("m"), &SeaGiven::origin},
+     {integer("components").within(10, 10000).standard(), &SeaGiven::components},
+     {integer("seed").at_least(0).standard(), &SeaGiven::seed},
+     {density_of_water(), &SeaGiven::density}}};
+
+const Record<SlopeGiven> slope_given{
+    {{list("bed", tuple_type({number_type(), number_type()}), 2)
+          .required()
+          .doc("points {x, z} (m) from the sea up the slope, x along the direction from the origin"),
+      &SlopeGiven::bed},
+     {object_or_function("waves", "Water", "(time: number): number")
+          .required()
+          .doc("that enter over the first point: waves of the same level, or the height over still water "
+               "(m)")},
+     {number("duration").above(0).unit("s").required().doc("a run may not go on beyond it"),
+      &SlopeGiven::duration},
+     {level_field(), &SlopeGiven::level},
+     {number("cell").above(0).unit("m").doc("a 300th of the bed when left out")},
+     {number("ramp").at_least(0).standard(0.0).unit("s").doc("over which the waves grow from nothing")},
+     {number("friction")
+          .within(0, 10)
+          .standard()
+          .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
+      &SlopeGiven::friction},
+     {direction_field(), &SlopeGiven::direction},
+     {vec3("origin").standard().unit("m"), &SlopeGiven::origin},
+     {density_of_water(), &SlopeGiven::density}}};
+
+const Record<WaterArrays> water_arrays{
+    {{text("velocity").standard("U").doc("name of the array (m/s, three components), at points or in cells"),
+      &WaterArrays::velocity},
+     {text("pressure")
+          .doc("name of the array: pressure above that of the air with its hydrostatic part, such as "
+               "OpenFOAM's \"p\" (\"p_rgh\" lacks that part). Left out: hydrostatic below the surface"),
+      &WaterArrays::pressure},
+     {number("pressure_factor")
+          .above(0)
+          .standard()
+          .doc("Pa in a unit of it; the density where it is kinematic"),
+      &WaterArrays::pressure_factor},
+     {text("fraction").doc("name of the array of the water fraction, 0 to 1, such as \"alpha.water\""),
+      &WaterArrays::fraction},
+     {number("level").unit("m").doc(
+         "z of the free surface where there is no fraction; left out: water everywhere")},
+     {number("cell").above(0).unit("m").doc(
+          "of the grid; left out: that of a .vti, else the mean size of the cells"),
+      &WaterArrays::cell},
+     {choice("same_along", {"x", "y", "z"})
+          .doc("the water is the same all along this axis, as in a flume of one cell")},
+     {vec3("shift").standard().unit("m").doc("is added to the coordinates"), &WaterArrays::shift}}};
+
 Value uniform(Session&, Object*, const Arguments& a) {
   UniformWater water;
   if (const auto function = a.function("velocity"))
@@ -69,38 +155,14 @@ Value field(Session&, Object*, const Arguments& a) {
 }
 
 Value wave(Session&, Object*, const Arguments& a) {
-  WaveGiven given;
-  const std::string& theory = a.text("theory");
-  given.theory = theory == "airy"     ? WaveTheory::airy
-                 : theory == "stokes" ? WaveTheory::stokes
-                                      : WaveTheory::stream_function;
-  given.height = a.number("height");
-  given.period = a.optional_number("period");
-  given.length = a.optional_number("length");
-  given.depth = a.number("depth");
-  given.level = a.number("level");
-  given.direction = a.vec3("direction");
-  given.crest_at = a.vec3("crest_at");
-  given.current = a.number("current");
-  given.order = a.count("order");
-  given.density = a.number("density");
+  const WaveGiven given = wave_given.read(a);
   const auto made = std::make_shared<WaveField>(given);
   return holding(made, "waves of " + number_text(given.height) + " m and " +
                            number_text(given.period.value_or(made->period())) + " s");
 }
 
 Value sea(Session&, Object*, const Arguments& a) {
-  SeaGiven given;
-  given.significant_height = a.number("significant_height");
-  given.peak_period = a.number("peak_period");
-  given.depth = a.number("depth");
-  given.level = a.number("level");
-  given.peak_enhancement = a.number("peak_enhancement");
-  given.direction = a.vec3("direction");
-  given.origin = a.vec3("origin");
-  given.components = a.count("components");
-  given.seed = static_cast<std::uint64_t>(a.integer("seed"));
-  given.density = a.number("density");
+  const SeaGiven given = sea_given.read(a);
   return holding(std::make_shared<IrregularSea>(given),
                  "an irregular sea of " + number_text(given.significant_height) + " m");
 }
@@ -132,15 +194,7 @@ std::function<double(double)> entering(const Arguments& a, const SlopeGiven& slo
 }
 
 Value slope_water(Session& session, Object*, const Arguments& a) {
-  SlopeGiven given;
-  for (const Value& point : a.list("bed"))
-    given.bed.push_back({point.table()->items[0].number(), point.table()->items[1].number()});
-  given.level = a.number("level");
-  given.direction = a.vec3("direction");
-  given.origin = a.vec3("origin");
-  given.duration = a.number("duration");
-  given.friction = a.number("friction");
-  given.density = a.number("density");
+  SlopeGiven given = slope_given.read(a);
   given.cell = a.optional_number("cell").value_or((given.bed.back()[0] - given.bed[0][0]) / 300);
   if (geom::Vec3(given.direction.x(), given.direction.y(), 0).norm() > 0)
     given.entering = entering(a, given);
@@ -178,15 +232,9 @@ std::string range_text(double low, double high) {
 }
 
 Value file_water(Session& session, Object*, const Arguments& a) {
-  WaterArrays wish;
-  wish.velocity = a.text("velocity");
-  wish.pressure = a.text_or("pressure", "");
-  wish.fraction = a.text_or("fraction", "");
-  wish.pressure_factor = a.number("pressure_factor");
-  wish.cell = a.optional_number("cell").value_or(0);
+  WaterArrays wish = water_arrays.read(a);
   if (const std::string axis = a.text_or("same_along", ""); !axis.empty())
     wish.same_along = axis[0] - 'x';
-  wish.shift = a.vec3("shift");
   WaterFiles files = files_of(session, a);
   if (files.times.size() != files.paths.size())
     throw InputError("times", std::to_string(files.times.size()) + " numbers",
@@ -223,16 +271,6 @@ const Record<WaterPoint> water_point{
 
 Table point_at(Session&, WaterObject& water, const Arguments& a) {
   return water_point(water.field->at(a.vec3("place"), a.number("time")));
-}
-
-Field density_of_water() {
-  return water_density_field("density").standard(1025.0).doc("sea water by default");
-}
-Field direction_field() {
-  return vec3("direction").standard(geom::Vec3(1, 0, 0)).doc("of travel, horizontal");
-}
-Field level_field() {
-  return number("level").standard(0.0).unit("m").doc("z of still water");
 }
 
 void bind_water_class(Module& m) {
@@ -283,77 +321,33 @@ void bind_water_fields(Module& m) {
         "A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker "
         "and Fenton 1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small "
         "waves. A wave higher than the breaking limit is refused.",
-        {choice("theory", {"stream_function", "stokes", "airy"}).standard("stream_function"),
-         number("height").above(0).unit("m").required().doc("crest over trough"),
-         number("period").above(0).unit("s").doc("give it or length"), number("length").above(0).unit("m"),
-         number("depth").above(0).unit("m").required().doc("of still water"), level_field(),
-         direction_field(),
-         vec3("crest_at").standard(geom::Vec3(0, 0, 0)).unit("m").doc("where a crest stands at time 0"),
-         number("current").standard(0.0).unit("m/s").doc("along the direction, mean under water"),
-         integer("order").within(3, 50).standard(20).doc("of the stream function"), density_of_water()},
-        wave, "cdem.Water");
+        wave_given.fields(), wave, "cdem.Water");
   m.add("water.sea",
         "An irregular sea of long crests: Airy waves whose energy follows the JONSWAP spectrum, with "
         "frequencies and phases drawn from the seed. Best as the waves of cdem.water.slope: at each node it "
         "sums all components.",
-        {number("significant_height").above(0).unit("m").required(),
-         number("peak_period").above(0).unit("s").required(),
-         number("depth").above(0).unit("m").required().doc("of still water"), level_field(),
-         number("peak_enhancement").within(1, 20).standard(3.3).doc("gamma; 1: Pierson and Moskowitz"),
-         direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"),
-         integer("components").within(10, 10000).standard(100), integer("seed").at_least(0).standard(1),
-         density_of_water()},
-        sea, "cdem.Water");
+        sea_given.fields(), sea, "cdem.Water");
   m.add("water.slope",
         "Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along "
         "the bed and the free surface, hydrostatic pressure. A breaking wave is a bore, without jet and "
         "without the pressure of its impact.",
-        {list("bed", tuple_type({number_type(), number_type()}), 2)
-             .required()
-             .doc("points {x, z} (m) from the sea up the slope, x along the direction from the origin"),
-         object_or_function("waves", "Water", "(time: number): number")
-             .required()
-             .doc("that enter over the first point: waves of the same level, or the height over still water "
-                  "(m)"),
-         number("duration").above(0).unit("s").required().doc("a run may not go on beyond it"), level_field(),
-         number("cell").above(0).unit("m").doc("a 300th of the bed when left out"),
-         number("ramp").at_least(0).standard(0.0).unit("s").doc("over which the waves grow from nothing"),
-         number("friction")
-             .within(0, 10)
-             .standard(0.01)
-             .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
-         direction_field(), vec3("origin").standard(geom::Vec3(0, 0, 0)).unit("m"), density_of_water()},
-        slope_water, "cdem.Water");
+        slope_given.fields(), slope_water, "cdem.Water");
   m.add(
       "water.file",
       "Water that another program has computed, from VTK's files (.vti, .vtu, .vts, .vtr, legacy .vtk) at "
       "several times. It is put on a regular grid, and is linear between its points and times. The free "
       "surface is where the water fraction is 1/2. A run that asks beyond the box or the times of the files "
       "ends with an error. One file alone is water that does not change.",
-      {text("series").doc("a .pvd file, which lists files with their times; give it or files"),
-       list("files", text_type()).doc("in the order of their times"),
-       list("times", number_type(), 0).unit("s").doc("of the files"),
-       text("velocity").standard("U").doc("name of the array (m/s, three components), at points or in cells"),
-       text("pressure")
-           .doc("name of the array: pressure above that of the air with its hydrostatic part, such as "
-                "OpenFOAM's \"p\" (\"p_rgh\" lacks that part). Left out: hydrostatic below the surface"),
-       number("pressure_factor")
-           .above(0)
-           .standard(1.0)
-           .doc("Pa in a unit of it; the density where it is kinematic"),
-       text("fraction").doc("name of the array of the water fraction, 0 to 1, such as \"alpha.water\""),
-       number("level").unit("m").doc(
-           "z of the free surface where there is no fraction; left out: water everywhere"),
-       number("cell").above(0).unit("m").doc(
-           "of the grid; left out: that of a .vti, else the mean size of the cells"),
-       choice("same_along", {"x", "y", "z"})
-           .doc("the water is the same all along this axis, as in a flume of one cell"),
-       vec3("shift").standard(geom::Vec3(0, 0, 0)).unit("m").doc("is added to the coordinates"),
-       number("time_shift")
-           .standard(0.0)
-           .unit("s")
-           .doc("is added to the times, such as the model's time at the start"),
-       density_of_water()},
+      std::vector<Field>{
+          text("series").doc("a .pvd file, which lists files with their times; give it or files"),
+          list("files", text_type()).doc("in the order of their times"),
+          list("times", number_type(), 0).unit("s").doc("of the files")} +
+          water_arrays.fields() +
+          std::vector<Field>{number("time_shift")
+                                 .standard(0.0)
+                                 .unit("s")
+                                 .doc("is added to the times, such as the model's time at the start"),
+                             density_of_water()},
       file_water, "cdem.Water");
 }
 

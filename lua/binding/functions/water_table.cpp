@@ -1,9 +1,9 @@
 // Water tables that are not level.
-#include "lua/binding/functions/angles.hpp"
 #include "lua/binding/functions/radians_given.hpp"
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
 #include "lua/binding/objects/water_object.hpp"
+#include "lua/binding/schema/angles.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libgeom/core/error.hpp"

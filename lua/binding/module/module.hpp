@@ -73,9 +73,9 @@ struct Class {
     methods.push_back({std::move(called), std::move(sentence), std::move(fields),
                        [body](Session& session, Object* self, const Arguments& arguments) -> Value {
                          if constexpr (std::is_invocable_v<Body, Self&>)
-                           return body(static_cast<Self&>(*self));
+                           return as_value(body(static_cast<Self&>(*self)));
                          else
-                           return body(session, static_cast<Self&>(*self), arguments);
+                           return as_value(body(session, static_cast<Self&>(*self), arguments));
                        },
                        std::move(returns), std::move(returns_doc)});
     return methods.back();

@@ -166,6 +166,14 @@ Field& Field::standard(Value value) {
   standard_value = std::move(value);
   return *this;
 }
+Field& Field::standard() {
+  own_standard = true;
+  return *this;
+}
+Field& Field::in_degrees() {
+  radians_inside = true;
+  return unit("deg");
+}
 Field& Field::above(double low) {
   type.range.low = low;
   type.range.low_open = true;
@@ -174,6 +182,10 @@ Field& Field::above(double low) {
 Field& Field::at_least(double low) {
   type.range.low = low;
   type.range.low_open = false;
+  return *this;
+}
+Field& Field::up_to(double high) {
+  type.range.high = high;
   return *this;
 }
 Field& Field::between(double low, double high) {
@@ -249,6 +261,9 @@ Field object(std::string name, std::string class_name) {
 Field record(std::string name, std::vector<Field> fields) {
   return with(std::move(name), record_type(std::move(fields)));
 }
+Field box(std::string name) {
+  return record(std::move(name), {vec3("min").unit("m").required(), vec3("max").unit("m").required()});
+}
 Field list(std::string name, Type item, std::size_t min_items) {
   return with(std::move(name), list_type(std::move(item), min_items));
 }
@@ -298,6 +313,11 @@ Field function(std::string name, std::string signature) {
   Type type = of(Kind::function);
   type.name = std::move(signature);
   return with(std::move(name), std::move(type));
+}
+
+std::vector<Field> operator+(std::vector<Field> fields, const std::vector<Field>& more) {
+  fields.insert(fields.end(), more.begin(), more.end());
+  return fields;
 }
 
 Type number_type() {
@@ -384,6 +404,13 @@ geom::Vec3 Arguments::vec3(const std::string& name) const {
 std::optional<geom::Vec3> Arguments::optional_vec3(const std::string& name) const {
   return has(name) ? std::optional<geom::Vec3>(vec3(name)) : std::nullopt;
 }
+geom::Box Arguments::box(const std::string& name) const {
+  const Arguments given = *record(name);
+  geom::Box box;
+  box.min = given.vec3("min");
+  box.max = given.vec3("max");
+  return box;
+}
 std::array<int, 3> Arguments::ivec3(const std::string& name) const {
   const geom::Vec3 x = vec3(name);
   for (int i = 0; i < 3; ++i)
@@ -399,6 +426,12 @@ std::vector<double> Arguments::numbers(const std::string& name) const {
   std::vector<double> out;
   for (const Value& x : list(name))
     out.push_back(x.number());
+  return out;
+}
+std::vector<std::string> Arguments::texts(const std::string& name) const {
+  std::vector<std::string> out;
+  for (const Value& x : list(name))
+    out.push_back(*x.get<std::string>());
   return out;
 }
 std::vector<Arguments> Arguments::records(const std::string& name) const {

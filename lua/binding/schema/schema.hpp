@@ -82,15 +82,20 @@ struct Field {
   Type type;
   std::string unit_text{}, doc_text{};
   bool must = false;
-  Value standard_value{}; // default; nil when there is none
-  std::string old_name{}; // that the last release knew, still taken; empty: none
+  Value standard_value{};      // default; nil when there is none
+  std::string old_name{};      // that the last release knew, still taken; empty: none
+  bool own_standard = false;   // the default is that of the struct that it is read into
+  bool radians_inside = false; // of a number in degrees
 
   Field& unit(std::string text);
   Field& doc(std::string text);
   Field& required();
   Field& standard(Value value);
+  Field& standard(); // that of the struct that it is read into (module/record.hpp)
+  Field& in_degrees();
   Field& above(double low);                // > low
   Field& at_least(double low);             // >= low
+  Field& up_to(double high);               // <= high, beside a low
   Field& between(double low, double high); // in (low, high)
   Field& within(double low, double high);  // in [low, high]
   Field& from(double low, double high);    // in [low, high)
@@ -107,6 +112,7 @@ Field text(std::string name);
 Field choice(std::string name, std::vector<std::string> choices);
 Field vec3(std::string name);
 Field ivec3(std::string name);
+Field box(std::string name); // { min, max }, m
 Field object(std::string name, std::string class_name);
 Field place(std::string name);
 Field function(std::string name, std::string signature);
@@ -119,6 +125,8 @@ Field plain(std::string name);
 Field record(std::string name, std::vector<Field> fields);
 Field list(std::string name, Type item, std::size_t min_items = 1);
 Field named(std::string name, Type item); // { any_name = item, ... }, one at least
+
+std::vector<Field> operator+(std::vector<Field>, const std::vector<Field>&); // one after the other
 
 // Types for the items of a list.
 Type number_type();
@@ -148,9 +156,11 @@ public:
   std::string text_or(const std::string& name, const std::string& otherwise) const;
   geom::Vec3 vec3(const std::string& name) const;
   std::optional<geom::Vec3> optional_vec3(const std::string& name) const;
+  geom::Box box(const std::string& name) const;
   std::array<int, 3> ivec3(const std::string& name) const;
   const Values& list(const std::string& name) const; // empty when absent
   std::vector<double> numbers(const std::string& name) const;
+  std::vector<std::string> texts(const std::string& name) const;
   std::vector<Arguments> records(const std::string& name) const;
   std::optional<Arguments> record(const std::string& name) const;
   std::shared_ptr<Reference> function(const std::string& name) const; // null when absent

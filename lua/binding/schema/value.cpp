@@ -7,6 +7,9 @@ namespace cdem::script {
 
 Value::Value(Table x) : data_(std::make_shared<Table>(std::move(x))) {}
 
+Value::Value(const geom::Box& x) : Value(Table{{"min", x.min}, {"max", x.max}}) {}
+Value::Value(const geom::Mat3& x)
+    : Value(Table::list({geom::Vec3(x.row(0)), geom::Vec3(x.row(1)), geom::Vec3(x.row(2))})) {}
 Value::Value(const geom::Vec3& x) : Value(Table::list({x.x(), x.y(), x.z()})) {}
 
 const Table* Value::table() const {

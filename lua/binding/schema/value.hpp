@@ -56,6 +56,8 @@ public:
   template <class T, class = std::enable_if_t<std::is_base_of_v<Object, T>>>
   Value(std::shared_ptr<T> x) : data_(std::static_pointer_cast<Object>(std::move(x))) {}
   Value(const geom::Vec3& x);
+  Value(const geom::Box& x);  // { min, max }
+  Value(const geom::Mat3& x); // rows
   template <std::size_t n>
   Value(const std::array<double, n>& x);
 
