@@ -71,7 +71,7 @@ private:
   }
   std::string pole_text(std::size_t i) const {
     const std::size_t n = poles_[i].planes.size();
-    return poles_[i].name + " (" + std::to_string(n) + (n == 1 ? " pole)" : " poles)");
+    return poles_[i].name + " (" + geom::counted(n, "pole") + ")";
   }
   std::string angles(std::size_t plane) const {
     const geom::Orientation& o = planes_[plane].plane;

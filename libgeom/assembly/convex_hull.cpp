@@ -146,8 +146,7 @@ Polyhedron polygons(const Hull& hull, const std::vector<int>& region) {
 
 Polyhedron convex_hull(const std::vector<Vec3>& points) {
   if (points.size() < 4)
-    throw InputError("points", std::to_string(points.size()) + (points.size() == 1 ? " point" : " points"),
-                     "at least 4 points");
+    throw InputError("points", counted(points.size(), "point"), "at least 4 points");
   for (std::size_t i = 0; i < points.size(); ++i)
     require_finite("points[" + std::to_string(i + 1) + "]", points[i]);
   const Vec3 extent = spread(points);

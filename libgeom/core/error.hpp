@@ -17,4 +17,14 @@ public:
                            (advice.empty() ? std::string() : "; " + advice)) {}
 };
 
+// "1 block", "3 blocks"; "2 bodies" where the plural is given.
+template <class Count>
+std::string counted(Count count, const std::string& one, const std::string& more) {
+  return std::to_string(count) + " " + (count == 1 ? one : more);
+}
+template <class Count>
+std::string counted(Count count, const std::string& one) {
+  return counted(count, one, one + "s");
+}
+
 } // namespace geom

@@ -223,10 +223,9 @@ void TextTable::make_even() {
     without_last(row.cells, width_);
     if (row.cells.size() == width_)
       continue;
-    refuse("line " + std::to_string(row.line) + " has " + std::to_string(row.cells.size()) +
-           (row.cells.size() == 1 ? " value" : " values") + ": must be " + std::to_string(width_) +
-           (named ? ", as many as there are names" : ", as in the first row") + "; cells are parted by " +
-           separator +
+    refuse("line " + std::to_string(row.line) + " has " + counted(row.cells.size(), "value") + ": must be " +
+           std::to_string(width_) + (named ? ", as many as there are names" : ", as in the first row") +
+           "; cells are parted by " + separator +
            (separator_ == ',' && row.cells.size() > width_
                 ? ", so numbers with a decimal comma need semicolons between cells"
                 : ""));

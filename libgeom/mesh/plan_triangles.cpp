@@ -20,8 +20,7 @@ using PlanDelaunay =
 Surface plan_triangles(const std::vector<Vec3>& points, const std::string& field) {
   const auto name = [&](std::size_t i) { return field + "[" + std::to_string(i + 1) + "]"; };
   if (points.size() < 3)
-    throw InputError(field, std::to_string(points.size()) + (points.size() == 1 ? " point" : " points"),
-                     "at least three points {x, y, z} (m)");
+    throw InputError(field, counted(points.size(), "point"), "at least three points {x, y, z} (m)");
   PlanDelaunay plan;
   PlanDelaunay::Face_handle near;
   for (std::size_t i = 0; i < points.size(); ++i) {

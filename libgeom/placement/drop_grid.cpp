@@ -28,8 +28,7 @@ Grid choose_grid(int count, const Eigen::Vector2d& room, double radius, double p
   if (count > a_layer * allowed)
     throw InputError("count", std::to_string(count),
                      "at most " + text(a_layer * allowed) + ": " + std::to_string(most[0]) + " by " +
-                         std::to_string(most[1]) + (most[1] == 1 ? " unit in " : " units in ") +
-                         std::to_string(allowed) + (allowed == 1 ? " layer" : " layers"),
+                         counted(most[1], "unit") + " in " + counted(allowed, "layer"),
                      "a wider region, smaller units or more layers take more");
   Grid grid;
   grid.layers = layers > 0 ? layers : static_cast<int>(std::ceil(count / a_layer));

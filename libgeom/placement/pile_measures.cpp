@@ -150,8 +150,7 @@ Columns middle_of(const std::vector<Point>& centroids, double height) {
   if (std::count(columns.wanted.begin(), columns.wanted.end(), 1) < least_columns)
     throw InputError("the pile has no middle: porosity is measured a unit's height away from its edge, and "
                      "its " +
-                     std::to_string(centroids.size()) +
-                     (centroids.size() == 1 ? " unit reaches" : " units reach") +
+                     counted(centroids.size(), "unit reaches", "units reach") +
                      " no further; take at least three rows of three, or more where they lie close");
   columns.ground.assign(columns.wanted.size(), none);
   columns.faces.resize(columns.wanted.size());

@@ -95,8 +95,8 @@ void validate(const Polyhedron& p) {
     if (outside > 0 && outside + loop.size() == p.vertices.size())
       refuse(name + " looks inward; list its vertices counter-clockwise seen from outside");
     if (outside > 0)
-      refuse("is not convex: " + std::to_string(outside) + (outside == 1 ? " vertex lies" : " vertices lie") +
-             " outside of " + name + "; split it into convex blocks");
+      refuse("is not convex: " + counted(outside, "vertex lies", "vertices lie") + " outside of " + name +
+             "; split it into convex blocks");
   }
   const double volume = mass_properties(p).volume;
   if (!(volume > 1e-9 * size * surface))

@@ -28,9 +28,9 @@ void require_closed(const std::vector<Vec3>& vertices, const std::vector<Triangl
       first = edge;
   if (open > 0)
     throw InputError("file", '"' + path + '"', "one closed surface",
-                     "it is open: " + std::to_string(open) +
-                         (open == 1 ? " edge belongs to one triangle only,"
-                                    : " edges belong to one triangle only, the first") +
+                     "it is open: " +
+                         counted(open, "edge belongs to one triangle only,",
+                                 "edges belong to one triangle only, the first") +
                          near(first[0], first[1]) + "; cdem.shell_mesh makes a wall of an open surface");
   std::vector<char> reached(triangles.size(), 0);
   std::vector<int> stack{0};
@@ -64,8 +64,7 @@ FacetedSurface read_stl(const std::string& path, double scale, const Vec3& shift
   surface.vertices = read.points;
   if (read.triangles.size() < 4)
     throw InputError("file", '"' + path + '"', "one closed surface",
-                     "it has " + std::to_string(read.triangles.size()) +
-                         (read.triangles.size() == 1 ? " triangle" : " triangles"));
+                     "it has " + counted(read.triangles.size(), "triangle"));
   require_closed(surface.vertices, read.triangles, path);
   const Vec3 origin = bounding_box(read).min;
   double volume = 0;

@@ -12,6 +12,7 @@
 #include "apps/cdem/results/run_log.hpp"
 #include "apps/cdem/text/text.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libgeom/core/error.hpp"
 #include "libgeom/core/plain_reason.hpp"
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/files/process_pool.hpp"
@@ -64,9 +65,7 @@ std::string last_line(const fs::path& file) {
 std::string verdict_of(const SweptRun& run) {
   if (run.exit_code == 0) {
     const int warnings = summary_of_run_log(run.folder / run_log_name).warnings;
-    return warnings == 0
-               ? "done"
-               : "done with " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
+    return warnings == 0 ? "done" : "done with " + geom::counted(warnings, "warning");
   }
   const std::string front = "cdem: error: ", line = last_line(run.console);
   return "exit code " + std::to_string(run.exit_code) +
@@ -133,7 +132,7 @@ ExitCode sweep(const SweepCommand& command) {
     folder.log(line);
   };
   say(number_of_runs(runs.size()) + ", " + std::to_string(jobs) + " side by side, " +
-      std::to_string(threads) + (threads == 1 ? " thread" : " threads") + " each");
+      geom::counted(threads, "thread") + " each");
   const auto ended = [&](const script::Job& process) {
     const auto index = static_cast<std::size_t>(&process - processes.data());
     SweptRun& run = runs[index];

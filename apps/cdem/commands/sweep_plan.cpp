@@ -4,6 +4,7 @@
 #include "apps/cdem/results/records.hpp"
 #include "apps/cdem/results/run_log.hpp"
 #include "apps/cdem/text/text.hpp"
+#include "libgeom/core/error.hpp"
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/files/sources.hpp"
 #include "lua/binding/text/csv.hpp"
@@ -40,7 +41,7 @@ std::string shown(const Settings& set) {
 }
 
 std::string number_of_runs(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " run" : " runs");
+  return geom::counted(count, "run");
 }
 
 void keep_sources(const fs::path& script, OutputFolder& folder) {

@@ -6,6 +6,7 @@
 #include "apps/cdem/text/text.hpp"
 #include "libcdem/checkpoint/xxh64.hpp"
 #include "libcdem/ranks/ranks.hpp"
+#include "libgeom/core/error.hpp"
 #include "lua/binding/replay/led.hpp"
 
 #include <array>
@@ -180,7 +181,7 @@ int ranks_on_these_cores() {
 }
 
 std::string ranks_text(int threads) {
-  const std::string text = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+  const std::string text = geom::counted(threads, "thread");
   return ranks().alone() ? text : std::to_string(ranks().size()) + " ranks of " + text;
 }
 

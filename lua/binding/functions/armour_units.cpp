@@ -40,15 +40,14 @@ Field share(std::string name, std::string doc) {
 
 std::vector<Field> unit_fields(std::vector<Field> more) {
   std::vector<Field> fields{
-      number("height").above(0).unit("m").doubted(20, largest_quantity, "The largest units are 5 m high"),
+      number("height", "m").above(0).doubted(20, largest_quantity, "The largest units are 5 m high"),
       // Units of a laboratory weigh less, units of a breakwater more.
-      number("mass")
+      number("mass", "kg")
           .above(0)
-          .unit("kg")
           .doc("with density, instead of height: the volume is met exactly")
           .doubted(1, 100, "A unit of 3 t has 3000; height = says that a small one is meant"),
       density_field("density"),
-      number("mesh_size").above(0).unit("m").doc("what solid:mesh{} takes when it is given no size")};
+      number("mesh_size", "m").above(0).doc("what solid:mesh{} takes when it is given no size")};
   fields.insert(fields.end(), more.begin(), more.end());
   return fields;
 }
@@ -147,9 +146,8 @@ void bind_armour_units(Module& m) {
         unit_fields(cubipod_shape.fields()), cubipod, "cdem.Solid");
   m.add("slope", "A wedge that rises along +x from x = 0, z = 0; y from -width/2 to width/2.",
         {number("gradient").above(0).required().doc("rise over run: 1/1.5"),
-         number("length").above(0).unit("m").required().doc("along x"),
-         number("width").above(0).unit("m").required().doc("along y"),
-         number("mesh_size").above(0).unit("m")},
+         number("length", "m").above(0).required().doc("along x"),
+         number("width", "m").above(0).required().doc("along y"), number("mesh_size", "m").above(0)},
         slope, "cdem.Solid");
 }
 

@@ -19,52 +19,47 @@ using geom::Vec3;
 constexpr double degree = 3.14159265358979323846 / 180;
 
 const Record<Bolt> bolt_record{
-    {{vec3("from").unit("m").doc("of one bolt: the collar")},
-     {vec3("to").unit("m").doc("its far end")},
-     {record("pattern", {vec3("centre").unit("m").required().doc("a point of the axis they fan out from"),
+    {{vec3("from", "m").doc("of one bolt: the collar")},
+     {vec3("to", "m").doc("its far end")},
+     {record("pattern", {vec3("centre", "m").required().doc("a point of the axis they fan out from"),
                          choice("axis", {"x", "y", "z"}).standard("y"),
-                         number("radius").above(0).unit("m").required().doc("from the axis to the collars"),
-                         number("length").above(0).unit("m").required(),
+                         number("radius", "m").above(0).required().doc("from the axis to the collars"),
+                         number("length", "m").above(0).required(),
                          list("angles", number_type())
                              .required()
                              .doc("degrees from the horizontal (x; y where the axis is x), 90 is up (z)"),
                          list("at", number_type()).required().doc("places along the axis, m")})
           .doc("fans of bolts, instead of from and to")},
-     {number("area")
+     {number("area", "m2")
           .above(0)
-          .unit("m2")
           .required()
           .doc("of the steel")
           .doubted(0.1, largest_quantity, "A bar of 25 mm has 4.9e-4"),
       &Bolt::area},
      {modulus_field("youngs_modulus").standard(200e9).doc("of the steel"), &Bolt::youngs_modulus},
-     {number("yield_stress")
+     {number("yield_stress", "Pa")
           .above(0)
-          .unit("Pa")
           .doc("of the steel; it does not yield when left out")
           .doubted(0, 1e7, "Steel has 2e8 to 2e9")},
-     {number("grout_stiffness")
+     {number("grout_stiffness", "N/m2")
           .above(0)
           .standard(1e9)
-          .unit("N/m2")
           .doc("force per length of bolt and displacement past the rock")
           .doubted(0, 1e5, "Grout has 1e8 to 1e10"),
       &Bolt::grout_stiffness},
-     {number("grout_strength")
+     {number("grout_strength", "N/m")
           .above(0)
-          .unit("N/m")
           .doc("force per length; it does not slip when left out")
           .doubted(0, 1e3, "Grout has 1e5 to 1e6"),
       &Bolt::grout_strength},
-     {number("pretension")
+     {number("pretension", "N")
           .at_least(0)
           .standard()
-          .unit("N")
           .doc("of the plate once the bolt is tight")
           .doubted(0, 1e3, "A bolt has 1e4 to 1e6; 100 kN is 1e5"),
       &Bolt::pretension},
      {flag("plate").standard().doc("the collar is fast to the rock"), &Bolt::plate},
-     {number("free_length").at_least(0).standard().unit("m").doc("without grout, from the collar on"),
+     {number("free_length", "m").at_least(0).standard().doc("without grout, from the collar on"),
       &Bolt::free_length},
      {integer("segments").within(1, 1000).standard(), &Bolt::segments}}};
 
@@ -110,8 +105,7 @@ Value bolts(Session& session, ModelObject& model, const Arguments& a) {
                        e.what());
     }
   });
-  model.notes->conditions.push_back(std::to_string(ends.size()) + (ends.size() == 1 ? " bolt" : " bolts") +
-                                    " set");
+  model.notes->conditions.push_back(geom::counted(ends.size(), "bolt") + " set");
   return static_cast<std::int64_t>(ends.size());
 }
 
@@ -120,12 +114,12 @@ const Record<Simulation::BoltRow> bolt_state{
     "A node of a bolt.",
     {{integer("bolt").doc("from 1, in the order they were set"), &Simulation::BoltRow::bolt},
      {integer("node").doc("from 1, from the collar on"), &Simulation::BoltRow::node},
-     {vec3("place").unit("m").doc("undeformed"), &Simulation::BoltRow::place},
-     {number("tension").unit("N").doc("at a collar with a plate that of the plate"),
+     {vec3("place", "m").doc("undeformed"), &Simulation::BoltRow::place},
+     {number("tension", "N").doc("at a collar with a plate that of the plate"),
       &Simulation::BoltRow::tension},
-     {number("grout").unit("N").doc("on the rock, towards the far end; a plate pushes that way"),
+     {number("grout", "N").doc("on the rock, towards the far end; a plate pushes that way"),
       &Simulation::BoltRow::grout},
-     {number("slip").unit("m").doc("of the bolt past the grout"), &Simulation::BoltRow::slip},
+     {number("slip", "m").doc("of the bolt past the grout"), &Simulation::BoltRow::slip},
      {number("yielded").doc("strain of the next segment that stays"), &Simulation::BoltRow::yielded}}};
 
 Table bolt_forces(ModelObject& model) {

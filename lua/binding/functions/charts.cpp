@@ -163,7 +163,7 @@ Value chart_of_fragments(Session& session, ModelObject& model, const Arguments& 
     options.y_range = {{0, 100}};
   const std::vector<PassingRow> rows = mass_passing(fragments_of_broken(model.simulation.fragment_motions()));
   Series series;
-  series.name = std::to_string(rows.size()) + (rows.size() == 1 ? " fragment" : " fragments");
+  series.name = geom::counted(rows.size(), "fragment");
   series.style = rows.size() == 1 ? "points" : "line";
   double passing = 0;
   for (const PassingRow& row : rows) {

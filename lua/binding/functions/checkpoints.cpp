@@ -49,14 +49,13 @@ Value load_state(Session& session, ModelObject& model, const Arguments& a) {
 
 void bind_checkpoints(Module& m) {
   Class& model = m.the_class("Model");
-  model
-      .add("checkpoint",
-           "Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is written every few "
-           "minutes of a solving call too, and when a run is stopped. A resumed run executes the script "
-           "again from its beginning. Calls that the script had made return what they returned before, "
-           "without solving.",
-           {}, checkpoint)
-      .ordered();
+  model.add(
+      "checkpoint",
+      "Writes a checkpoint of the whole run, from which `cdem resume` goes on. One is written every few "
+      "minutes of a solving call too, and when a run is stopped. A resumed run executes the script "
+      "again from its beginning. Calls that the script had made return what they returned before, "
+      "without solving.",
+      {}, checkpoint);
   model
       .add("save_state",
            "Writes the state of the model to a file that other scripts start from: motion, stress, broken "

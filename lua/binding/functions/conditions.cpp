@@ -194,15 +194,17 @@ Value initial_velocity(Session&, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-// Acts on each of the places of `on`, or on none.
+// Acts on each of the places of `on`, or on none; notes "3 bodies made rigid".
 template <class Act>
-std::int64_t sum_over_places(const Session& session, ModelObject& model, const Arguments& a, const Act& act) {
+Value act_on_places(const Session& session, ModelObject& model, const Arguments& a, const Act& act,
+                    const std::string& one, const std::string& more, const std::string& done) {
   const std::vector<Selection> places = selections(model, a.value("on"), "on");
   std::int64_t count = 0;
   all_or_none(session, model, places.size(), [&](Simulation& simulation, std::size_t i) {
     const std::int64_t here = act(simulation, places[i]);
     count += &simulation == &model.simulation ? here : 0;
   });
+  note(model, geom::counted(count, one, more) + done);
   return count;
 }
 
@@ -227,13 +229,10 @@ std::string in_words(const Excavation& excavation) {
 Value remove(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("remove");
   const Excavation excavation = excavation_of(a);
-  const std::int64_t count =
-      sum_over_places(session, model, a, [&](Simulation& simulation, const Selection& on) {
-        return simulation.remove(on, excavation);
-      });
-  note(model,
-       std::to_string(count) + (count == 1 ? " block removed" : " blocks removed") + in_words(excavation));
-  return count;
+  return act_on_places(
+      session, model, a,
+      [&](Simulation& simulation, const Selection& on) { return simulation.remove(on, excavation); }, "block",
+      "blocks", " removed" + in_words(excavation));
 }
 
 Value relax_excavation(Session& session, ModelObject& model, const Arguments& a) {
@@ -250,31 +249,24 @@ Value relax_excavation(Session& session, ModelObject& model, const Arguments& a)
 
 Value make_rigid(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("make_rigid");
-  const std::int64_t count =
-      sum_over_places(session, model, a,
-                      [&](Simulation& simulation, const Selection& on) { return simulation.make_rigid(on); });
-  note(model, std::to_string(count) + (count == 1 ? " body" : " bodies") + " made rigid");
-  return count;
+  return act_on_places(session, model, a, std::mem_fn(&Simulation::make_rigid), "body", "bodies",
+                       " made rigid");
 }
 
 Value make_deformable(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("make_deformable");
-  const std::int64_t count =
-      sum_over_places(session, model, a, [&](Simulation& simulation, const Selection& on) {
-        return simulation.make_deformable(on);
-      });
-  note(model, std::to_string(count) + (count == 1 ? " body" : " bodies") + " made deformable");
-  return count;
+  return act_on_places(session, model, a, std::mem_fn(&Simulation::make_deformable), "body", "bodies",
+                       " made deformable");
 }
 
 Value break_bonds(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("break_bonds");
-  const std::int64_t count =
-      sum_over_places(session, model, a, [&](Simulation& simulation, const Selection& on) {
+  return act_on_places(
+      session, model, a,
+      [&](Simulation& simulation, const Selection& on) {
         return simulation.break_bonds(on, a.flag("whole_faces"));
-      });
-  note(model, std::to_string(count) + (count == 1 ? " bond broken" : " bonds broken"));
-  return count;
+      },
+      "bond", "bonds", " broken");
 }
 
 // The name of break_bonds until 0.2.
@@ -295,8 +287,10 @@ Field relaxed() {
       "the rest stays as a load");
 }
 Field over() {
-  return number("over").above(0).unit("s").doc("time of model:run, from now on, in which this share goes "
-                                               "evenly; at once when left out. A relaxation takes no time");
+  return number("over", "s")
+      .above(0)
+      .doc("time of model:run, from now on, in which this share goes "
+           "evenly; at once when left out. A relaxation takes no time");
 }
 Field axes() {
   return choice("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}).standard("xyz").doc("components held");
@@ -306,16 +300,15 @@ Field axes() {
 void bind_conditions(Module& m) {
   Class& model = m.the_class("Model");
   model
-      .add(
-          "fix", "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
-          {on(), axes(),
-           vec3("displacement")
-               .unit("m")
-               .doc("total value to be held. A relaxation moves there in its first steps; a run moves there "
-                    "at a steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
-           vec3("velocity").unit("m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
-           amplitude_field(), since_field()},
-          fix)
+      .add("fix",
+           "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
+           {on(), axes(),
+            vec3("displacement", "m")
+                .doc("total value to be held. A relaxation moves there in its first steps; a run moves there "
+                     "at a steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
+            vec3("velocity", "m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
+            amplitude_field(), since_field()},
+           fix)
       .replayed(Replay::again);
   model.add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release)
       .replayed(Replay::again);
@@ -324,20 +317,20 @@ void bind_conditions(Module& m) {
            "Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, "
            "such as that of a reservoir. It acts on faces that are free as the stage begins and does not "
            "follow them. Several tractions on a face add up.",
-           {on(), vec3("stress").unit("Pa").doc("force over area"),
+           {on(), vec3("stress", "Pa").doc("force over area"),
             number_or_function("pressure", "(x: number, y: number, z: number): number")
                 .unit("Pa")
                 .doc("instead: along the inward normal, the same everywhere or at each undeformed place"),
-            number("level").unit("m").doc("instead: z of a free water surface; weight times the depth below "
-                                          "it, none above. Water in joints is model:water's"),
+            number("level", "m")
+                .doc("instead: z of a free water surface; weight times the depth below "
+                     "it, none above. Water in joints is model:water's"),
             object("water_table", "WaterTable").doc("instead: a free water surface that is not level"),
             water_weight_field("weight").doc("of the water"), amplitude_field(), since_field()},
            traction)
       .replayed(Replay::again);
   model
       .add("force", "A total force, shared among the nodes of a place. Several forces on a node add up.",
-           {one_place(), vec3("force").unit("N").required().doc("total"), amplitude_field(), since_field()},
-           force)
+           {one_place(), vec3("force", "N").required().doc("total"), amplitude_field(), since_field()}, force)
       .replayed(Replay::again);
   model
       .add("gravity", "Weight of all blocks; one at a time, the last call counts.",
@@ -360,16 +353,14 @@ void bind_conditions(Module& m) {
            "bulk_modulus (pumped volume - volume of the cracks) / reservoir. It is the same in all cracks of "
            "the place (docs/theory.md, section 22). Several pressures in a crack add up.",
            {place("on").standard("all").doc("where: a place or a list of places, by the centroids of faces"),
-            number("pressure").at_least(0).unit("Pa"),
-            number("volume").at_least(0).unit("m3").doc("instead: pumped in, in model:run"),
-            number("bulk_modulus")
+            number("pressure", "Pa").at_least(0),
+            number("volume", "m3").at_least(0).doc("instead: pumped in, in model:run"),
+            number("bulk_modulus", "Pa")
                 .above(0)
-                .unit("Pa")
                 .doc("of the fluid; water has 2.2e9")
                 .doubted(0, 1e4, "Water has 2.2e9, air 1e5"),
-            number("reservoir")
+            number("reservoir", "m3")
                 .above(0)
-                .unit("m3")
                 .doc("what the fluid fills beside the cracks, such as a borehole"),
             amplitude_field(), since_field()},
            crack_pressure)
@@ -383,10 +374,10 @@ void bind_conditions(Module& m) {
       "Gives blocks, meshes and rigid bodies the motion v + w x (x - about) of a rigid body, as velocities "
       "before the first real-time step. It replaces the velocities that they had.",
       {place("on").standard("all").doc("where: a place or a list of places, each by itself"),
-       vec3("velocity").unit("m/s").doc("v"),
-       vec3("angular_velocity").unit("rad/s").doc("w, right-handed about its direction; a full turn is 2 pi"),
-       vec3("about").unit("m").doc(
-           "the point that w turns about; the centroid of what is selected when left out")},
+       vec3("velocity", "m/s").doc("v"),
+       vec3("angular_velocity", "rad/s").doc("w, right-handed about its direction; a full turn is 2 pi"),
+       vec3("about", "m")
+           .doc("the point that w turns about; the centroid of what is selected when left out")},
       initial_velocity);
   model.add("remove",
             "Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid "

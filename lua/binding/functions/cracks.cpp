@@ -23,20 +23,19 @@ constexpr double usual_window = 0.1;
 const Record<Cracks> crack_sum{
     "CrackSum",
     "How much has cracked, and what it took.",
-    {{number("area").unit("m2").doc("of all cracks: the three below together"), &Cracks::area},
-     {number("tension_area").unit("m2").doc("broken in tension"), &Cracks::tension},
-     {number("shear_area").unit("m2").doc("broken in shear"), &Cracks::shear},
-     {number("damaged_area").unit("m2").doc("damage times area of what softens and is not broken"),
+    {{number("area", "m2").doc("of all cracks: the three below together"), &Cracks::area},
+     {number("tension_area", "m2").doc("broken in tension"), &Cracks::tension},
+     {number("shear_area", "m2").doc("broken in shear"), &Cracks::shear},
+     {number("damaged_area", "m2").doc("damage times area of what softens and is not broken"),
       &Cracks::damaged},
-     {number("projected_area")
-          .unit("m2")
+     {number("projected_area", "m2")
           .doc("area as the planes that failed see it: a cohesive crack takes its fracture energy on this "
                "one"),
       &Cracks::projected},
-     {number("energy").unit("J").doc("taken by breaking and damage"),
+     {number("energy", "J").doc("taken by breaking and damage"),
       [](const Cracks& c) { return c.energy.tension + c.energy.shear; }},
-     {number("tension_energy").unit("J"), [](const Cracks& c) { return c.energy.tension; }},
-     {number("shear_energy").unit("J"), [](const Cracks& c) { return c.energy.shear; }}}};
+     {number("tension_energy", "J"), [](const Cracks& c) { return c.energy.tension; }},
+     {number("shear_energy", "J"), [](const Cracks& c) { return c.energy.shear; }}}};
 
 Value cracks(Session&, ModelObject& model, const Arguments&) {
   const CracksByBody found = model.simulation.cracks();
@@ -50,11 +49,7 @@ Value cracks(Session&, ModelObject& model, const Arguments&) {
 
 Value record_cracks(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("record_cracks");
-  const std::string& name = a.text("name");
-  if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
-    throw InputError("name", describe(a.value("name")),
-                     "a word: it begins the names of columns of history.csv");
-  model.simulation.record_cracks(name, a.text_or("body", ""));
+  model.simulation.record_cracks(column_name(a), a.text_or("body", ""));
   return {};
 }
 
@@ -90,12 +85,12 @@ Value rayleigh_of(const ModelObject& model, const Arguments& a) {
 const Record<CrackTipRow> tip_row{
     "CrackTip",
     "The tip of a crack along a path: lists with an entry for each step at which it moved on.",
-    {{number("time").unit("s"), &CrackTipRow::time},
-     {number("position").unit("m").doc("along the path"), &CrackTipRow::position},
-     {number("speed").unit("m/s").doc(
-          "least-squares slope over the window; nan where no time passes, as in a relaxation"),
+    {{number("time", "s"), &CrackTipRow::time},
+     {number("position", "m").doc("along the path"), &CrackTipRow::position},
+     {number("speed", "m/s")
+          .doc("least-squares slope over the window; nan where no time passes, as in a relaxation"),
       &CrackTipRow::speed},
-     {vec3("place").unit("m").doc("of the broken point, undeformed"), &CrackTipRow::place},
+     {vec3("place", "m").doc("of the broken point, undeformed"), &CrackTipRow::place},
      {number("stage"), &CrackTipRow::stage},
      {number("step").doc("within the stage"), &CrackTipRow::step}}};
 
@@ -129,14 +124,13 @@ void bind_crack_records(Module& m) {
   all.fields.insert(all.fields.end() - 1,
                     plain("bodies").required().doc("a cdem.CrackSum for each body, by its name"));
   m.records.push_back(std::move(all));
-  tip.fields =
-      tip.fields +
-      std::vector<Field>{
-          record("tip", {number("position").unit("m").required(), vec3("place").unit("m").required()})
-              .doc("the last of them; nil where nothing broke at the start of the path"),
-          number("fastest").unit("m/s").required().doc("largest speed; 0 where there is none"),
-          number("rayleigh_speed").unit("m/s").doc("of the body, which no crack in tension can exceed"),
-          number("reach").unit("m").required(), number("window").unit("s").required()};
+  tip.fields = tip.fields +
+               std::vector<Field>{
+                   record("tip", {number("position", "m").required(), vec3("place", "m").required()})
+                       .doc("the last of them; nil where nothing broke at the start of the path"),
+                   number("fastest", "m/s").required().doc("largest speed; 0 where there is none"),
+                   number("rayleigh_speed", "m/s").doc("of the body, which no crack in tension can exceed"),
+                   number("reach", "m").required(), number("window", "s").required()};
   m.records.push_back(std::move(tip));
 }
 
@@ -146,19 +140,21 @@ void bind_tip(Class& model) {
       "Where the tip of a crack was along a path, and how fast it ran, from the bonds that broke. The tip is "
       "the farthest broken point that hangs together with the start of the path; a microcrack ahead counts "
       "once the crack has met it.",
-      {vec3("point").unit("m").doc(
-           "where the crack starts, undeformed; the path runs on to the end of the model"),
+      {vec3("point", "m").doc("where the crack starts, undeformed; the path runs on to the end of the model"),
        vec3("direction").doc("of that straight path"),
        list("path", vec3_type(), 2)
            .unit("m")
            .doc("instead of point and direction: its corners, undeformed, the first where the crack starts. "
                 "Along a face of a body it follows what shows there"),
-       number("width").above(0).unit("m").required().doc("how far from the path a broken point may lie"),
-       number("reach").above(0).unit("m").doc(
-           "points nearer than this hang together; about the edge of a tetrahedron when left out"),
-       number("window").above(0).unit("s").doc(
-           "over which the speed is fitted; several times what the crack takes for one element. A tenth of "
-           "the time it ran when left out"),
+       number("width", "m").above(0).required().doc("how far from the path a broken point may lie"),
+       number("reach", "m")
+           .above(0)
+           .doc("points nearer than this hang together; about the edge of a tetrahedron when left out"),
+       number("window", "s")
+           .above(0)
+           .doc("over which the speed is fitted; several times what the crack takes for one element. A tenth "
+                "of "
+                "the time it ran when left out"),
        text("body").doc("whose Rayleigh speed is told; the only one when left out")},
       crack_tip, "cdem.CrackTip");
 }
@@ -178,10 +174,8 @@ void bind_cracks(Module& m) {
        "number")
       .ordered();
   Class& model = m.the_class("Model");
-  model
-      .add("cracks", "Area of all cracks and the energy they took, of the model and of each body.", {},
-           cracks, "cdem.Cracks")
-      .ordered();
+  model.add("cracks", "Area of all cracks and the energy they took, of the model and of each body.", {},
+            cracks, "cdem.Cracks");
   model.add("record_cracks",
             "Samples the area and energy of cracks into the history, as columns <name>_area, "
             "<name>_tension_area, <name>_shear_area, <name>_damaged_area, <name>_projected_area, "

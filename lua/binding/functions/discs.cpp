@@ -17,14 +17,13 @@ using geom::InputError;
 
 const Record<geom::RadiusOptions> radius_record{
     {{choice("law", {"constant", "exponential", "lognormal", "power"}).standard(), &geom::RadiusOptions::law},
-     {number("mean").above(0).unit("m").doc("of constant, exponential and lognormal"),
-      &geom::RadiusOptions::mean},
-     {number("deviation").above(0).unit("m").doc("standard deviation, of lognormal"),
+     {number("mean", "m").above(0).doc("of constant, exponential and lognormal"), &geom::RadiusOptions::mean},
+     {number("deviation", "m").above(0).doc("standard deviation, of lognormal"),
       &geom::RadiusOptions::deviation},
      {number("exponent").within(0.01, 20).doc("a of power: the density falls as radius^-(a + 1)"),
       &geom::RadiusOptions::exponent},
-     {number("smallest").above(0).unit("m").doc("of power"), &geom::RadiusOptions::smallest},
-     {number("largest").above(0).unit("m").doc("of power"), &geom::RadiusOptions::largest}}};
+     {number("smallest", "m").above(0).doc("of power"), &geom::RadiusOptions::smallest},
+     {number("largest", "m").above(0).doc("of power"), &geom::RadiusOptions::largest}}};
 
 const Record<geom::RandomDiscs> disc_set{
     {{text("set").required().doc("its name"), &geom::RandomDiscs::set},
@@ -34,8 +33,8 @@ const Record<geom::RandomDiscs> disc_set{
           "concentration of Fisher's distribution, some 10 to 100; all discs are parallel when left out"),
       &geom::RandomDiscs::kappa},
      {record("radius", radius_record.fields()).required(), &geom::RandomDiscs::radius, radius_record},
-     {number("p30").above(0).unit("1/m3").doc("discs per volume"), &geom::RandomDiscs::p30},
-     {number("p32").above(0).unit("1/m").doc("instead: area of discs per volume")}}};
+     {number("p30", "1/m3").above(0).doc("discs per volume"), &geom::RandomDiscs::p30},
+     {number("p32", "1/m").above(0).doc("instead: area of discs per volume")}}};
 
 // Names what a law takes where something else is given.
 void require_radius(const Arguments& given, const std::string& path) {
@@ -79,16 +78,16 @@ const Record<geom::DiscStatistics> statistics_record{
     "What the discs of one set come to.",
     {{text("set"), &geom::DiscStatistics::set},
      {integer("count").doc("discs in all"), &geom::DiscStatistics::count},
-     {number("mean_radius").unit("m"), &geom::DiscStatistics::mean_radius},
+     {number("mean_radius", "m"), &geom::DiscStatistics::mean_radius},
      {number("dip").in_degrees().doc("of the mean plane"), &geom::DiscStatistics::dip},
      {number("dip_direction").in_degrees(), &geom::DiscStatistics::dip_direction},
      {number("kappa").doc("of Fisher, (n - 1) / (n - R); nil for fewer than three discs or parallel ones"),
       &geom::DiscStatistics::kappa},
-     {number("p30").unit("1/m3").doc("centres in the box over its volume"), &geom::DiscStatistics::p30},
-     {number("p32").unit("1/m").doc("area in the box over its volume"), &geom::DiscStatistics::p32},
-     {number("p21").unit("1/m").doc("length of traces in the plane, within the box, over its area"),
+     {number("p30", "1/m3").doc("centres in the box over its volume"), &geom::DiscStatistics::p30},
+     {number("p32", "1/m").doc("area in the box over its volume"), &geom::DiscStatistics::p32},
+     {number("p21", "1/m").doc("length of traces in the plane, within the box, over its area"),
       &geom::DiscStatistics::p21},
-     {number("p10").unit("1/m").doc("crossings with the line over its length"), &geom::DiscStatistics::p10}}};
+     {number("p10", "1/m").doc("crossings with the line over its length"), &geom::DiscStatistics::p10}}};
 
 Value disc_statistics(Session& session, Object*, const Arguments& a) {
   geom::DiscWindow window;
@@ -125,10 +124,10 @@ const Record<geom::Disc>& disc_record() {
       {{integer("id").at_least(0).doc(
             "discs cut in the order of their ids; its place in the list when left out"),
         &geom::Disc::id},
-       {vec3("centre").unit("m").required(), &geom::Disc::centre},
+       {vec3("centre", "m").required(), &geom::Disc::centre},
        {number("dip").within(0, 90).in_degrees().required(), &geom::Disc::dip},
        {number("dip_direction").within(0, 360).in_degrees().required(), &geom::Disc::dip_direction},
-       {number("radius").above(0).unit("m").required(), &geom::Disc::radius},
+       {number("radius", "m").above(0).required(), &geom::Disc::radius},
        {text("set").required().doc("name of its faces, for their law"), &geom::Disc::set}}};
   return members;
 }
@@ -147,9 +146,9 @@ void bind_discs(Module& m) {
         "surveyed, of cdem.read_discs.",
         {list("discs", record_type(disc_record().fields())).required(),
          box("box").required().doc("the volume"),
-         record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
+         record("plane", {vec3("point", "m").required(), vec3("normal").required()})
              .doc("for p21: a rock face or the floor of a drift"),
-         record("line", {vec3("from").unit("m").required(), vec3("to").unit("m").required()})
+         record("line", {vec3("from", "m").required(), vec3("to", "m").required()})
              .doc("for p10: a scanline or a borehole")},
         disc_statistics, "cdem.DiscStatistics[]");
 }

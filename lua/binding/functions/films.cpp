@@ -109,11 +109,10 @@ std::vector<Field> film_fields() {
       field.doc("{width, height} in pixels");
     else if (field.name == "title")
       field.doc("the time or the step when left out");
-  fields.insert(
-      fields.begin() + 1,
-      {number("every").above(0).unit("s").doc("of the model, between frames; relaxations take none"),
-       integer("steps").at_least(1).doc("instead: steps between frames, in relaxations too"),
-       integer("frames_per_second").within(1, 120).standard(12)});
+  fields.insert(fields.begin() + 1,
+                {number("every", "s").above(0).doc("of the model, between frames; relaxations take none"),
+                 integer("steps").at_least(1).doc("instead: steps between frames, in relaxations too"),
+                 integer("frames_per_second").within(1, 120).standard(12)});
   return fields;
 }
 

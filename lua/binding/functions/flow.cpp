@@ -86,18 +86,18 @@ Value flow(Session& session, ModelObject& model, const Arguments& a) {
 
 const Record<Fragment> fragment{"Fragment",
                                 "A piece of a model that unbroken bonds hold together.",
-                                {{number("volume").unit("m3"), &Fragment::volume},
-                                 {vec3("centroid").unit("m"), &Fragment::centroid},
+                                {{number("volume", "m3"), &Fragment::volume},
+                                 {vec3("centroid", "m"), &Fragment::centroid},
                                  {integer("tets"), &Fragment::tets},
                                  {flag("held").doc("some node of it is held"), &Fragment::held}}};
 
 const Record<CriticalFlowSample> flow_sample{
     "CriticalFlowSample",
     "One moment of a search.",
-    {{number("time").unit("s"), &CriticalFlowSample::time},
-     {number("pressure").unit("Pa"), &CriticalFlowSample::pressure},
-     {number("velocity").unit("m/s"), &CriticalFlowSample::velocity},
-     {number("displacement").unit("m").doc("mean where the flow pushes, along it"),
+    {{number("time", "s"), &CriticalFlowSample::time},
+     {number("pressure", "Pa"), &CriticalFlowSample::pressure},
+     {number("velocity", "m/s"), &CriticalFlowSample::velocity},
+     {number("displacement", "m").doc("mean where the flow pushes, along it"),
       &CriticalFlowSample::displacement},
      {integer("broken").doc("bonds so far"), &CriticalFlowSample::broken}}};
 
@@ -130,25 +130,25 @@ const Record<FlowFound> flow_record{
     {{choice("reason", {"fragment", "compliance", "limit"})
           .doc("a piece came off; the compliance grew; or max_velocity was reached"),
       &FlowFound::reason},
-     {number("velocity").unit("m/s"), &FlowFound::velocity},
-     {number("pressure").unit("Pa"), &FlowFound::pressure},
-     {number("time").unit("s"), &FlowFound::time},
-     {number("period").unit("s").doc("of the first mode"), &FlowFound::period},
-     {number("compliance").unit("m/Pa").doc("of the unbroken solid at rest"), &FlowFound::compliance},
+     {number("velocity", "m/s"), &FlowFound::velocity},
+     {number("pressure", "Pa"), &FlowFound::pressure},
+     {number("time", "s"), &FlowFound::time},
+     {number("period", "s").doc("of the first mode"), &FlowFound::period},
+     {number("compliance", "m/Pa").doc("of the unbroken solid at rest"), &FlowFound::compliance},
      {list("fragments", object_type("Fragment"), 0).doc("largest first"), &FlowFound::fragments, fragment},
-     {number("broken_area").unit("m2"), &FlowFound::broken_area},
-     {vec3("place").unit("m").doc("centroid of the broken area; nil when nothing broke"),
+     {number("broken_area", "m2"), &FlowFound::broken_area},
+     {vec3("place", "m").doc("centroid of the broken area; nil when nothing broke"),
       [](const FlowFound& r) { return r.if_broken(r.place); }},
      {vec3("place_fraction").doc("the same in parts of the model's box, 0 to 1"),
       [](const FlowFound& r) { return r.if_broken(r.fraction()); }},
      {number("height_fraction").doc("along the held side's normal, from that side on"), &FlowFound::height},
      {choice("part", {"root", "waist", "top"}).doc("third of that height"),
       [](const FlowFound& r) { return r.height() ? Value(third(*r.height())) : Value(); }},
-     {number("first_break_velocity").unit("m/s").doc("when the first bond broke; nil when none did"),
+     {number("first_break_velocity", "m/s").doc("when the first bond broke; nil when none did"),
       [](const FlowFound& r) { return r.if_broken(r.first_break_velocity); }},
-     {number("first_break_pressure").unit("Pa"),
+     {number("first_break_pressure", "Pa"),
       [](const FlowFound& r) { return r.if_broken(r.first_break_pressure); }},
-     {vec3("first_break_place").unit("m").doc("undeformed"),
+     {vec3("first_break_place", "m").doc("undeformed"),
       [](const FlowFound& r) { return r.if_broken(r.first_break_place); }},
      {integer("broken_tension"), &FlowFound::broken_tension},
      {integer("broken_shear"), &FlowFound::broken_shear},
@@ -164,7 +164,7 @@ const Record<CriticalFlowOptions> search_record{
                "strength; ramp: always, and inertia has its part")},
      {choice("held", {"x-", "x+", "y-", "y+", "z-", "z+"})
           .doc("the side that is fixed: then the result says at which part of the height the solid broke")},
-     {number("pressure_rate").above(0).standard().unit("Pa/s"), &CriticalFlowOptions::pressure_rate},
+     {number("pressure_rate", "Pa/s").above(0).standard(), &CriticalFlowOptions::pressure_rate},
      {number("hold_periods").above(0).standard().doc("hold time in periods of the first mode"),
       &CriticalFlowOptions::hold_periods},
      {number("fragment_fraction").between(0, 1).standard().doc("of the volume: what counts as broken off"),
@@ -174,7 +174,7 @@ const Record<CriticalFlowOptions> search_record{
           .standard()
           .doc("to the unbroken, static one: what counts as broken"),
       &CriticalFlowOptions::compliance_ratio},
-     {number("max_velocity").above(1).standard().unit("m/s").doc("gives up there"),
+     {number("max_velocity", "m/s").above(1).standard().doc("gives up there"),
       &CriticalFlowOptions::max_velocity},
      {number("safety").within(0, 1).standard().doc("time step over the stable one"),
       &CriticalFlowOptions::safety},
@@ -216,10 +216,10 @@ Value velocity(Session&, Object*, const Arguments& a) {
 void bind_flow(Module& m) {
   m.records.insert(m.records.end(), {fragment, flow_sample, flow_record});
   m.add("flow_pressure", "Pressure of a stream, rho V^2 / 2 (Feng 2014 eq 20), Pa.",
-        {number("velocity").at_least(0).unit("m/s").required(), water_density()}, pressure, "number")
+        {number("velocity", "m/s").at_least(0).required(), water_density()}, pressure, "number")
       .ordered();
   m.add("flow_velocity", "Velocity of a stream from its pressure, sqrt(2 F / rho), m/s.",
-        {number("pressure").at_least(0).unit("Pa").required(), water_density()}, velocity, "number")
+        {number("pressure", "Pa").at_least(0).required(), water_density()}, velocity, "number")
       .ordered();
   Class& model = m.the_class("Model");
   std::vector<Field> steady = stream.fields();

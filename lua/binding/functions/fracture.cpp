@@ -22,10 +22,9 @@ const Record<BlockCut> cut_record{
     "A block that was cut.",
     {{integer("block").doc("id"), &BlockCut::block},
      {choice("mode", {"tension", "shear"}), &BlockCut::mode},
-     {vec3("centroid").unit("m"), &BlockCut::centroid},
+     {vec3("centroid", "m"), &BlockCut::centroid},
      {vec3("normal").doc("of the cut planes"), &BlockCut::normal},
-     {vec3("principal_stress")
-          .unit("Pa")
+     {vec3("principal_stress", "Pa")
           .doc(
               "tension positive, the largest first"), // The criteria keep the paper's compression-positive values; scripts see tension as positive.
       [](const BlockCut& cut) { return geom::Vec3(-cut.principal.reverse()); }},
@@ -45,9 +44,9 @@ const Record<CrackFace> crack_face{
      {integer("round").doc("within the pass"), &CrackFace::round},
      {choice("mode", {"tension", "shear"}),
       [](const CrackFace& f) { return f.mode == BondMode::broken_shear ? "shear" : "tension"; }},
-     {vec3("centroid").unit("m"), &CrackFace::centroid},
+     {vec3("centroid", "m"), &CrackFace::centroid},
      {vec3("normal"), &CrackFace::normal},
-     {number("area").unit("m2"), &CrackFace::area},
+     {number("area", "m2"), &CrackFace::area},
      {number("ratio").doc("traction over strength when it broke"), &CrackFace::ratio}}};
 
 const Record<GrowPass> grow_pass{
@@ -63,7 +62,7 @@ const Record<GrowPass> grow_pass{
      {number("first_ratio").doc("traction over strength of the worst face before any broke"),
       &GrowPass::first_ratio},
      {number("last_ratio").doc("of the worst face that is left"), &GrowPass::last_ratio},
-     {vec3("tip").unit("m"), &GrowPass::tip},
+     {vec3("tip", "m"), &GrowPass::tip},
      {list("path", vec3_type(), 0)
           .unit("m")
           .doc("from the crack's mouth to its end; empty while there is no crack"),
@@ -80,13 +79,12 @@ const Record<GrowResult> grow_record{
      {list("passes", object_type("GrowPass"), 0), &GrowResult::passes, grow_pass}}};
 
 const Record<RefineOptions> refine_record{
-    {{number("tension_threshold")
+    {{number("tension_threshold", "Pa")
           .at_least(0)
-          .unit("Pa")
           .standard()
           .doc("a block is cut when its stress is this close to the tensile strength"),
       &RefineOptions::tension_threshold},
-     {number("shear_threshold").at_least(0).unit("Pa").standard().doc("the same for the Mohr-Coulomb line"),
+     {number("shear_threshold", "Pa").at_least(0).standard().doc("the same for the Mohr-Coulomb line"),
       &RefineOptions::shear_threshold},
      {integer("planes").within(1, 15).standard().doc("equally spaced parallel cuts"), &RefineOptions::planes},
      {integer("max_depth").within(1, 6).standard().doc("a block that was cut this often is left alone"),
@@ -126,8 +124,8 @@ Value refine(Session& session, ModelObject& model, const Arguments& a) {
     const std::vector<BlockCut> cuts = simulation.refine(options);
     const auto shear = std::count_if(cuts.begin(), cuts.end(),
                                      [](const BlockCut& cut) { return cut.mode == CutMode::shear; });
-    session.message("stage " + std::to_string(session.stages.size()) + " refine: " +
-                    std::to_string(cuts.size()) + (cuts.size() == 1 ? " block cut (" : " blocks cut (") +
+    session.message("stage " + std::to_string(session.stages.size()) +
+                    " refine: " + geom::counted(cuts.size(), "block") + " cut (" +
                     std::to_string(static_cast<std::int64_t>(cuts.size()) - shear) + " tension, " +
                     std::to_string(shear) + " shear), " + std::to_string(simulation.counts().blocks) +
                     " blocks now" + (cuts.empty() ? "; what may break stays as it was" : ""));
@@ -156,9 +154,8 @@ const Record<GrowOptions> grow_options{
           .standard()
           .doc("what turns the planes: the stress around the tip, or each block's own mean (Han 2010)"),
       &GrowOptions::judged_by},
-     {number("tip_radius")
+     {number("tip_radius", "m")
           .above(0)
-          .unit("m")
           .doc("reach of the stress around the tip and, without anchor_at_tip, of the cutting; one block "
                "size when left out"),
       &GrowOptions::tip_radius},

@@ -11,23 +11,23 @@ namespace {
 const Record<FragmentMotion> fragment_motion{
     "FragmentMotion",
     "A piece of a model that unbroken bonds hold together, as it is and as it moves.",
-    {{number("volume").unit("m3"), &FragmentMotion::volume},
-     {vec3("centroid").unit("m").doc("undeformed"), &FragmentMotion::centroid},
+    {{number("volume", "m3"), &FragmentMotion::volume},
+     {vec3("centroid", "m").doc("undeformed"), &FragmentMotion::centroid},
      {integer("tets"), &FragmentMotion::tets},
      {flag("held").doc("some node of it is held"), &FragmentMotion::held},
      {text("body").doc("nil where parts of several bodies hang together")},
-     {number("diameter").unit("m").doc("of the sphere with its volume"), &FragmentMotion::diameter},
-     {number("mass").unit("kg"), &FragmentMotion::mass},
-     {vec3("centre").unit("m").doc("of mass, now"), &FragmentMotion::centre},
-     {vec3("velocity").unit("m/s").doc("of the centre"),
+     {number("diameter", "m").doc("of the sphere with its volume"), &FragmentMotion::diameter},
+     {number("mass", "kg"), &FragmentMotion::mass},
+     {vec3("centre", "m").doc("of mass, now"), &FragmentMotion::centre},
+     {vec3("velocity", "m/s").doc("of the centre"),
       [](const FragmentMotion& f) { return geom::Vec3(f.momentum / f.mass); }},
-     {vec3("momentum").unit("N s"), &FragmentMotion::momentum},
-     {vec3("angular_momentum").unit("N m s").doc("about its own centre"), &FragmentMotion::angular_momentum},
-     {number("kinetic_energy").unit("J").doc("the three below together"), &FragmentMotion::kinetic},
-     {number("translation_energy").unit("J"), &FragmentMotion::translation},
-     {number("rotation_energy").unit("J").doc("of the rigid spin with its angular momentum"),
+     {vec3("momentum", "N s"), &FragmentMotion::momentum},
+     {vec3("angular_momentum", "N m s").doc("about its own centre"), &FragmentMotion::angular_momentum},
+     {number("kinetic_energy", "J").doc("the three below together"), &FragmentMotion::kinetic},
+     {number("translation_energy", "J"), &FragmentMotion::translation},
+     {number("rotation_energy", "J").doc("of the rigid spin with its angular momentum"),
       &FragmentMotion::rotation},
-     {number("rest_energy").unit("J").doc("vibration"), &FragmentMotion::rest}}};
+     {number("rest_energy", "J").doc("vibration"), &FragmentMotion::rest}}};
 
 Value fragments(Session&, ModelObject& model, const Arguments&) {
   Values rows;
@@ -79,10 +79,8 @@ Value save_fragments(Session& session, ModelObject& model, const Arguments& a) {
 void bind_fragments(Module& m) {
   m.records.push_back(fragment_motion);
   Class& model = m.the_class("Model");
-  model
-      .add("fragments", "Pieces that unbroken bonds hold together, with their size and motion.", {},
-           fragments, "cdem.FragmentMotion[]", "largest first")
-      .ordered();
+  model.add("fragments", "Pieces that unbroken bonds hold together, with their size and motion.", {},
+            fragments, "cdem.FragmentMotion[]", "largest first");
   model.add("save_fragments",
             "Writes a row for each fragment, the largest first: number of its body from 1 (0: parts of "
             "several), tets, held, volume, diameter, mass, centre, momentum, angular momentum, energies.",

@@ -74,10 +74,9 @@ Value hoek_brown_bond(Session&, Object*, const Arguments& a) {
 } // namespace
 
 void bind_hoek_brown(Module& m) {
-  const std::vector<Field> plastic{number("dilation_angle")
+  const std::vector<Field> plastic{number("dilation_angle", "deg")
                                        .from(0, 90)
                                        .standard(0.0)
-                                       .unit("deg")
                                        .doc("at most the friction angle of the tangent"),
                                    record("residual", residual_mass.fields())
                                        .doc("of the rock at softening_strain; what is left out stays"),

@@ -80,8 +80,7 @@ Value initial_stress(Session& session, ModelObject& model, const Arguments& a) {
             " m, K0 " + describe(a.value("k0"));
   model.notes->conditions.push_back(line + " in " + field.on.text);
   if (beyond.points > 0)
-    session.warn("initial_stress: " + std::to_string(beyond.points) +
-                 (beyond.points == 1 ? " joint point is" : " joint points are") +
+    session.warn("initial_stress: " + geom::counted(beyond.points, "joint point is", "joint points are") +
                  " loaded beyond what the joint bears, " +
                  (std::isfinite(beyond.largest_utilisation)
                       ? "at most " + three_digits(beyond.largest_utilisation) + " times its strength"
@@ -129,9 +128,9 @@ const Record<Unbalance> unbalance_record{
     "How far from balance a model is.",
     {{number("largest").doc("net force of a free node over the reference, the largest"), &Unbalance::largest},
      {number("mean").doc("the mean over all free nodes"), &Unbalance::mean},
-     {number("force").unit("N").doc("net force where the ratio is largest"), &Unbalance::force},
+     {number("force", "N").doc("net force where the ratio is largest"), &Unbalance::force},
      {integer("block").doc("its id, there"), &Unbalance::block},
-     {vec3("place").unit("m"), &Unbalance::place}}};
+     {vec3("place", "m"), &Unbalance::place}}};
 
 Value unbalance(Session&, ModelObject& model, const Arguments& a) {
   return unbalance_record(model.simulation.unbalance(a.optional_number("reference")));
@@ -148,14 +147,13 @@ void bind_in_situ(Module& m) {
             "times that. Interfaces between two blocks that are both selected start with its traction.",
             {place("on").standard("all").doc("where: one place"),
              list("stress", number_type(), 6).unit("Pa").doc("{xx, yy, zz, xy, yz, xz}, tension positive"),
-             number("gradient")
+             number("gradient", "Pa/m")
                  .at_least(0)
-                 .unit("Pa/m")
                  .doc("weight per volume, density times 9.81")
                  .doubted(0, 1e3, "Rock has 2e4 to 3e4, its weight per metre of depth"),
              plain("k0").doc("horizontal over vertical stress, one number or {kx, ky}; needed with gradient"),
-             number("surface").unit("m").doc(
-                 "z where depth begins, the top of the model when left out; above it there is none")},
+             number("surface", "m")
+                 .doc("z where depth begins, the top of the model when left out; above it there is none")},
             initial_stress, "integer",
             "joint points that this loads beyond their strength; a warning tells of them");
   model.add("gravity_stress",
@@ -171,7 +169,7 @@ void bind_in_situ(Module& m) {
             "How far from balance the model is now: the net forces of its free nodes over the weight of "
             "their blocks. The ratio is 0 in balance, and 1 where a node feels a force like the weight of "
             "its whole block.",
-            {number("reference").above(0).unit("N").doc("force to compare with instead of the weights")},
+            {number("reference", "N").above(0).doc("force to compare with instead of the weights")},
             unbalance, "cdem.Unbalance");
 }
 

@@ -22,20 +22,20 @@ struct JFound : JIntegral {
   }
 };
 
-const Record<JDomain> domain_record{{{number("inner").unit("m").required(), &JDomain::inner},
-                                     {number("outer").unit("m").required(), &JDomain::outer},
-                                     {number("j").unit("J/m2").required(), &JDomain::j}}};
+const Record<JDomain> domain_record{{{number("inner", "m").required(), &JDomain::inner},
+                                     {number("outer", "m").required(), &JDomain::outer},
+                                     {number("j", "J/m2").required(), &JDomain::j}}};
 
 const Record<JFound> j_record{
     "JIntegral",
     "Energy release rate at a crack front.",
-    {{number("j").unit("J/m2").doc("mean over the domains"), &JFound::mean},
+    {{number("j", "J/m2").doc("mean over the domains"), &JFound::mean},
      {number("spread").doc("largest less smallest of the domains, over the mean"), &JFound::spread},
-     {number("thickness").unit("m").doc("length of the front"), &JFound::thickness},
+     {number("thickness", "m").doc("length of the front"), &JFound::thickness},
      {list("domains", record_type(domain_record.fields())), &JFound::domains, domain_record},
-     {number("k_plane_stress").unit("Pa m^0.5").doc("sqrt(E j); nil where j < 0"),
+     {number("k_plane_stress", "Pa m^0.5").doc("sqrt(E j); nil where j < 0"),
       [](const JFound& f) { return f.toughness(f.material.youngs_modulus); }},
-     {number("k_plane_strain").unit("Pa m^0.5").doc("sqrt(E j / (1 - nu^2)); nil where j < 0"),
+     {number("k_plane_strain", "Pa m^0.5").doc("sqrt(E j / (1 - nu^2)); nil where j < 0"),
       [](const JFound& f) {
         const double nu = f.material.poissons_ratio;
         return f.toughness(f.material.youngs_modulus / (1 - nu * nu));
@@ -75,7 +75,7 @@ void bind_j_integral(Module& m) {
       "(J integral over domains of tetrahedra). The body must be at rest at small strain, the crack faces "
       "free, flat and parallel to the growth, without supports, loads, contacts and bonds in the domain; "
       "anything else is refused.",
-      {vec3("point").unit("m").required().doc("anywhere on the front, undeformed"),
+      {vec3("point", "m").required().doc("anywhere on the front, undeformed"),
        vec3("front").required().doc("direction of the front, through the thickness"),
        vec3("growth").required().doc("where the crack would go on, square to the front"),
        list("radii", number_type())

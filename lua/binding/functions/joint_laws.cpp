@@ -38,12 +38,14 @@ const Record<BartonBandis> rough_joint{
           .doc(
               "slope of the hyperbola where it begins; normal_stiffness, or E/L, is the steepest it becomes"),
       &BartonBandis::initial_stiffness},
-     {number("maximum_closure").above(0).unit("m").required(), &BartonBandis::maximum_closure},
-     {number("length").above(0).unit("m").doc(
-         "of the joint: jrc and jcs are those of samples and are scaled to it, and it gives the slip at the "
-         "peak, length / 500 (JRC / length)^0.33")},
-     {number("sample_length").above(0).unit("m").standard(0.1).doc("of the samples")},
-     {number("peak_slip").above(0).unit("m").doc("slip at the peak; wins over that of the length"),
+     {number("maximum_closure", "m").above(0).required(), &BartonBandis::maximum_closure},
+     {number("length", "m")
+          .above(0)
+          .doc("of the joint: jrc and jcs are those of samples and are scaled to it, and it gives the slip "
+               "at the "
+               "peak, length / 500 (JRC / length)^0.33")},
+     {number("sample_length", "m").above(0).standard(0.1).doc("of the samples")},
+     {number("peak_slip", "m").above(0).doc("slip at the peak; wins over that of the length"),
       &BartonBandis::peak_slip}}};
 
 Value barton_bandis(Session&, Object*, const Arguments& a) {
@@ -110,13 +112,11 @@ std::vector<Field> dilation_fields() {
   return {friction_field("residual_friction_angle")
               .doc("between blocks: friction once the joint has slipped; at most friction_angle, which it is "
                    "when left out"),
-          number("dilation_angle")
+          number("dilation_angle", "deg")
               .from(0, 90)
-              .unit("deg")
               .doc("between blocks: slip opens the joint at this angle; at most the residual friction angle"),
-          number("dilation_limit")
+          number("dilation_limit", "m")
               .at_least(0)
-              .unit("m")
               .doc("slip at which dilation ends; without it it does not end")};
 }
 
@@ -165,17 +165,15 @@ const Record<Joint>& joint_stiffness() {
             .doc("equivalent thickness of the joint over the block size (cube root of its volume), which "
                  "sets the stiffness E/L and G/L"),
         &Joint::thickness_ratio},
-       {number("thickness")
+       {number("thickness", "m")
             .above(0)
-            .unit("m")
             .doc("equivalent thickness itself; wins over the ratio. Contacts of meshes take it too"),
         &Joint::thickness},
        {joint_stiffness_field("normal_stiffness").doc("instead of E/L"), &Joint::normal_stiffness},
        {joint_stiffness_field("shear_stiffness").doc("instead of G/L"), &Joint::shear_stiffness},
-       {number("stiffness_damping")
+       {number("stiffness_damping", "s")
             .at_least(0)
             .standard()
-            .unit("s")
             .doc("beta of Rayleigh damping, of joints between blocks that move far in real-time stepping, "
                  "as long as their faces have not parted; refused where it would do nothing"),
         &Joint::stiffness_damping}}};

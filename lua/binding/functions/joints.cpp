@@ -25,22 +25,22 @@ const Record<JointSum> joint_sum{
     {{text("set").doc("its name; \"\": joints of no set"), &JointSum::set},
      {integer("interfaces").doc("pairs of faces that springs hold"), &JointSum::interfaces},
      {integer("parted").doc("pairs that are left to contact; no other value counts them"), &JointSum::parted},
-     {number("area").unit("m2"), &JointSum::area},
-     {number("open_area").unit("m2").doc("of faces that are apart"), &JointSum::open_area},
-     {number("broken_area").unit("m2"), &JointSum::broken_area},
-     {number("normal_traction").unit("Pa").doc("mean over the area, tension positive; effective"),
+     {number("area", "m2"), &JointSum::area},
+     {number("open_area", "m2").doc("of faces that are apart"), &JointSum::open_area},
+     {number("broken_area", "m2"), &JointSum::broken_area},
+     {number("normal_traction", "Pa").doc("mean over the area, tension positive; effective"),
       &JointSum::normal},
-     {number("shear_traction").unit("Pa").doc("mean of its size"), &JointSum::shear},
-     {number("water_pressure").unit("Pa").doc("mean"), &JointSum::water},
+     {number("shear_traction", "Pa").doc("mean of its size"), &JointSum::shear},
+     {number("water_pressure", "Pa").doc("mean"), &JointSum::water},
      {number("utilisation")
           .doc("traction over strength, 1 where it slides; mean over the area that is not apart"),
       &JointSum::mean_utilisation},
      {number("largest_utilisation"), &JointSum::largest_utilisation},
-     {number("slip").unit("m").doc("size of the shear displacement since the beginning, mean"),
+     {number("slip", "m").doc("size of the shear displacement since the beginning, mean"),
       &JointSum::mean_slip},
-     {number("largest_slip").unit("m"), &JointSum::largest_slip},
-     {number("opening").unit("m").doc("below 0: closed under pressure; mean"), &JointSum::mean_opening},
-     {number("largest_opening").unit("m"), &JointSum::largest_opening}}};
+     {number("largest_slip", "m"), &JointSum::largest_slip},
+     {number("opening", "m").doc("below 0: closed under pressure; mean"), &JointSum::mean_opening},
+     {number("largest_opening", "m"), &JointSum::largest_opening}}};
 
 Table joints(Session&, ModelObject& model, const Arguments& a) {
   return joint_sum.list(model.simulation.joints(joint_choice(model, a)));
@@ -52,20 +52,20 @@ const Record<NamedPoint> joint_point{
     "JointPoints",
     "The points of joints: lists with an entry for each.",
     {{text("set"), &NamedPoint::first},
-     {vec3("place").unit("m").doc("undeformed"), [](const NamedPoint& p) { return p.second.place; }},
-     {number("area").unit("m2"), [](const NamedPoint& p) { return p.second.area; }},
+     {vec3("place", "m").doc("undeformed"), [](const NamedPoint& p) { return p.second.place; }},
+     {number("area", "m2"), [](const NamedPoint& p) { return p.second.area; }},
      {text("mode").doc("\"bonded\", \"broken_tension\", \"broken_shear\" or \"contact\""),
       [](const NamedPoint& p) {
         static const char* const modes[] = {"bonded", "broken_tension", "broken_shear", "contact"};
         return modes[static_cast<int>(p.second.mode)];
       }},
-     {number("normal_traction").unit("Pa").doc("tension positive; effective"),
+     {number("normal_traction", "Pa").doc("tension positive; effective"),
       [](const NamedPoint& p) { return p.second.normal; }},
-     {number("shear_traction").unit("Pa"), [](const NamedPoint& p) { return p.second.shear; }},
-     {number("water_pressure").unit("Pa"), [](const NamedPoint& p) { return p.second.water; }},
+     {number("shear_traction", "Pa"), [](const NamedPoint& p) { return p.second.shear; }},
+     {number("water_pressure", "Pa"), [](const NamedPoint& p) { return p.second.water; }},
      {number("utilisation"), [](const NamedPoint& p) { return p.second.utilisation; }},
-     {number("opening").unit("m"), [](const NamedPoint& p) { return p.second.opening; }},
-     {number("slip").unit("m"), [](const NamedPoint& p) { return p.second.slip; }}}};
+     {number("opening", "m"), [](const NamedPoint& p) { return p.second.opening; }},
+     {number("slip", "m"), [](const NamedPoint& p) { return p.second.slip; }}}};
 
 Table joint_points(Session&, ModelObject& model, const Arguments& a) {
   return joint_point.columns(model.simulation.joint_points(joint_choice(model, a)));

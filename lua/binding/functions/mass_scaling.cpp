@@ -19,7 +19,7 @@ std::string percent(double share) {
 
 Field mass_scaling_field() {
   return record("mass_scaling",
-                {number("step").above(0).unit("s").doc("the time step"),
+                {number("step", "s").above(0).doc("the time step"),
                  number("factor").doc("instead: over the step that the true masses allow, at least 1")})
       .doc("for quasi-static stages: nodes that need a shorter time step get more inertia, not more weight; "
            "instead of time_step");

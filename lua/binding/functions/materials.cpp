@@ -19,22 +19,20 @@ const Record<Elastic> elastic_record{
      {number("poissons_ratio").between(-1, 0.5).required().doc("Poisson's ratio nu"),
       &Elastic::poissons_ratio},
      {density_field("density").required(), &Elastic::density},
-     {number("viscosity")
+     {number("viscosity", "N s/m4")
           .at_least(0)
           .standard()
-          .unit("N s/m4")
           .doc("damping force per volume and velocity, mu of Han 2010 eq 1; used by real-time stepping"),
       &Elastic::viscosity},
-     {number("stiffness_damping")
+     {number("stiffness_damping", "s")
           .at_least(0)
           .standard()
-          .unit("s")
           .doc("beta of Rayleigh damping, of meshes in real-time stepping: a vibration of angular "
                "frequency w has beta w / 2 of critical damping, motion as a rigid body none"),
       &Elastic::stiffness_damping},
      {record("damping",
              {number("fraction").between(0, 1).required().doc("of critical damping at the frequency"),
-              number("frequency").above(0).unit("Hz").required(),
+              number("frequency", "Hz").above(0).required(),
               choice("of", {"both", "mass", "stiffness"})
                   .standard("both")
                   .doc("half of it each, and more at other frequencies; or all by viscosity (falls with "
@@ -42,8 +40,8 @@ const Record<Elastic> elastic_record{
                        "(grows with the frequency, shortens the stable step)")})
           .doc("Rayleigh damping by the fraction of critical damping, in place of viscosity and "
                "stiffness_damping")},
-     {number("shear_modulus").unit("Pa").doc("G = E / 2(1 + nu)"), &Elastic::shear_modulus},
-     {number("p_wave_modulus").unit("Pa").doc("lambda + 2 G"), &Elastic::p_wave_modulus}}};
+     {number("shear_modulus", "Pa").doc("G = E / 2(1 + nu)"), &Elastic::shear_modulus},
+     {number("p_wave_modulus", "Pa").doc("lambda + 2 G"), &Elastic::p_wave_modulus}}};
 
 // Rayleigh's alpha and beta for a fraction of critical damping at one frequency, where the sum of the two, alpha / 2w +
 // beta w / 2, is least.
@@ -100,20 +98,18 @@ const Record<Joint> any_joint{{{flag("bonded"), &Joint::bonded}, {flag("glued"),
 
 const Record<StrengthScatter> weibull{
     {{number("modulus").within(2, 1000).required().doc("m"), &StrengthScatter::modulus},
-     {number("reference_volume")
+     {number("reference_volume", "m3")
           .above(0)
-          .unit("m3")
           .required()
           .doc("the volume whose mean strength the joint gives"),
       &StrengthScatter::reference_volume},
      {integer("seed").at_least(0).required(), &StrengthScatter::seed}}};
 
 const Record<RateEffect> rate_effect{
-    {{number("reference_rate").above(0).unit("1/s").required().doc("of the strengths given"),
+    {{number("reference_rate", "1/s").above(0).required().doc("of the strengths given"),
       &RateEffect::reference_rate},
      {number("exponent").within(0, 1).required(), &RateEffect::exponent},
-     {number("change_rate").above(0).unit("1/s").doc("beyond it exponent_above holds"),
-      &RateEffect::change_rate},
+     {number("change_rate", "1/s").above(0).doc("beyond it exponent_above holds"), &RateEffect::change_rate},
      {number("exponent_above").within(0, 1), &RateEffect::exponent_above},
      {flag("fracture_energy").standard().doc("fracture energies are raised too"),
       &RateEffect::fracture_energy}}};

@@ -17,32 +17,30 @@ using geom::InputError;
 const Record<FieldValue> extreme{"Extreme",
                                  "Where a field is largest or smallest.",
                                  {{number("value"), &FieldValue::value},
-                                  {vec3("place").unit("m").doc("undeformed"), &FieldValue::place},
+                                  {vec3("place", "m").doc("undeformed"), &FieldValue::place},
                                   {integer("block").doc("id"), &FieldValue::block}}};
 
 const Record<EnergyLedger> energy_record{
     "Energy",
     "Energy ledger, J: what is stored, what was spent, what was given.",
-    {{number("elastic").unit("J").doc("stored in the blocks"), &EnergyLedger::elastic},
-     {number("springs").unit("J").doc("stored in bonds and contacts"), &EnergyLedger::springs},
-     {number("bolts").unit("J").doc("stored in bolts and their grout"), &EnergyLedger::bolts},
-     {number("kinetic").unit("J").doc("of the real masses, or of a relaxation's fictitious ones"),
+    {{number("elastic", "J").doc("stored in the blocks"), &EnergyLedger::elastic},
+     {number("springs", "J").doc("stored in bonds and contacts"), &EnergyLedger::springs},
+     {number("bolts", "J").doc("stored in bolts and their grout"), &EnergyLedger::bolts},
+     {number("kinetic", "J").doc("of the real masses, or of a relaxation's fictitious ones"),
       &EnergyLedger::kinetic},
-     {number("damping").unit("J"), &EnergyLedger::damping},
-     {number("radiated").unit("J").doc("left through quiet boundaries and free fields"),
-      &EnergyLedger::radiated},
-     {number("friction").unit("J"), &EnergyLedger::friction},
-     {number("breaking").unit("J").doc("lost by bonds that broke or softened"), &EnergyLedger::breaking},
-     {number("plastic").unit("J").doc("plastic work of blocks that yield"), &EnergyLedger::plastic},
-     {number("yielding").unit("J").doc("lost by the steel of bolts that yielded"), &EnergyLedger::yielding},
-     {number("cutting").unit("J").doc("lost when blocks were cut or removed, or freed nodes joined again"),
+     {number("damping", "J"), &EnergyLedger::damping},
+     {number("radiated", "J").doc("left through quiet boundaries and free fields"), &EnergyLedger::radiated},
+     {number("friction", "J"), &EnergyLedger::friction},
+     {number("breaking", "J").doc("lost by bonds that broke or softened"), &EnergyLedger::breaking},
+     {number("plastic", "J").doc("plastic work of blocks that yield"), &EnergyLedger::plastic},
+     {number("yielding", "J").doc("lost by the steel of bolts that yielded"), &EnergyLedger::yielding},
+     {number("cutting", "J").doc("lost when blocks were cut or removed, or freed nodes joined again"),
       &EnergyLedger::cutting},
-     {number("fictitious").unit("J").doc("kinetic energy a relaxation threw away at its end"),
+     {number("fictitious", "J").doc("kinetic energy a relaxation threw away at its end"),
       &EnergyLedger::fictitious},
-     {number("external").unit("J").doc("work of loads, gravity and moving supports"),
-      &EnergyLedger::external},
-     {number("external_peak").unit("J").doc("largest |external| so far"), &EnergyLedger::external_peak},
-     {number("total").unit("J").doc("sum of all but external"), &EnergyLedger::total},
+     {number("external", "J").doc("work of loads, gravity and moving supports"), &EnergyLedger::external},
+     {number("external_peak", "J").doc("largest |external| so far"), &EnergyLedger::external_peak},
+     {number("total", "J").doc("sum of all but external"), &EnergyLedger::total},
      {number("balance_error").doc("|total - external| over the largest energy above"),
       &EnergyLedger::balance_error},
      {number("one_way_error")
@@ -54,10 +52,10 @@ const Record<EnergyLedger> energy_record{
 const Record<Overlap> overlap_record{
     "Overlap",
     "Volume that two blocks occupy at once, as they stand now.",
-    {{number("volume").unit("m3").doc("of all pairs of blocks"), &Overlap::volume},
+    {{number("volume", "m3").doc("of all pairs of blocks"), &Overlap::volume},
      {integer("pairs"), &Overlap::pairs},
-     {number("largest").unit("m3").doc("of one pair"), &Overlap::largest},
-     {vec3("place").unit("m").doc("of that pair"), &Overlap::place},
+     {number("largest", "m3").doc("of one pair"), &Overlap::largest},
+     {vec3("place", "m").doc("of that pair"), &Overlap::place},
      {list("blocks", text_type(), 2).doc("names of that pair; nil where nothing overlaps"),
       [](const Overlap& o) {
         return o.pairs > 0 ? Value(Table::list({o.largest_a, o.largest_b})) : Value();
@@ -70,9 +68,9 @@ const Record<Simulation::BlockRow> block_state{
      {integer("parent").doc("id of the block it was cut from"), &Simulation::BlockRow::parent},
      {integer("generation").doc("how often it was cut"), &Simulation::BlockRow::generation},
      {text("body"), &Simulation::BlockRow::body},
-     {vec3("centroid").unit("m").doc("undeformed"), &Simulation::BlockRow::centroid},
-     {number("volume").unit("m3"), &Simulation::BlockRow::volume},
-     {vec3("displacement").unit("m").doc("of the centroid"), &Simulation::BlockRow::displacement},
+     {vec3("centroid", "m").doc("undeformed"), &Simulation::BlockRow::centroid},
+     {number("volume", "m3"), &Simulation::BlockRow::volume},
+     {vec3("displacement", "m").doc("of the centroid"), &Simulation::BlockRow::displacement},
      {list("stress", number_type(), 6).unit("Pa").doc("{xx, yy, zz, xy, yz, xz}"),
       &Simulation::BlockRow::stress}}};
 
@@ -81,15 +79,14 @@ const Record<BreakRow> break_row{
     "A bond that broke.",
     {{integer("stage"), &BreakRow::stage},
      {integer("step").doc("within the stage"), &BreakRow::step},
-     {number("time").unit("s"), &BreakRow::time},
+     {number("time", "s"), &BreakRow::time},
      {choice("mode", {"tension", "shear"}),
       [](const BreakRow& b) { return b.mode == BondMode::broken_shear ? "shear" : "tension"; }},
-     {vec3("place").unit("m").doc("undeformed"), &BreakRow::place},
+     {vec3("place", "m").doc("undeformed"), &BreakRow::place},
      {vec3("normal"), &BreakRow::normal},
-     {number("area").unit("m2"), &BreakRow::area},
-     {number("normal_traction").unit("Pa").doc("when it broke, tension positive"),
-      &BreakRow::normal_traction},
-     {number("shear_traction").unit("Pa").doc("when it broke"), &BreakRow::shear_traction},
+     {number("area", "m2"), &BreakRow::area},
+     {number("normal_traction", "Pa").doc("when it broke, tension positive"), &BreakRow::normal_traction},
+     {number("shear_traction", "Pa").doc("when it broke"), &BreakRow::shear_traction},
      {integer("block_a").doc("id"), &BreakRow::block_a},
      {integer("block_b").doc("id"), &BreakRow::block_b}}};
 
@@ -149,22 +146,12 @@ Value history(Session&, ModelObject& model, const Arguments&) {
   return table;
 }
 
-std::string column_name(const Arguments& a) {
-  const std::string& name = a.text("name");
-  if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
-    throw InputError("name", describe(a.value("name")),
-                     "a word: it begins the names of columns of history.csv");
-  return name;
-}
-
 Value probe(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("probe");
   std::vector<std::string> taken = model.simulation.probe_names();
   for (const auto& [name, values] : history_columns(model.simulation))
     taken.push_back(name);
-  const std::string& name = a.text("name");
-  if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
-    throw InputError("name", describe(a.value("name")), "a word: it becomes a column of history.csv");
+  const std::string name = column_name(a, "it becomes a column");
   if (std::find(taken.begin(), taken.end(), name) != taken.end())
     throw InputError("name", describe(a.value("name")), "a new name",
                      "the history has these: " + joined(taken));
@@ -203,7 +190,7 @@ void bind_measures(Module& m) {
       .ordered_or_named();
   model
       .add("at", "Value of a field at an undeformed place, interpolated in the block there.",
-           {field, vec3("place").unit("m").required()}, at, "number")
+           {field, vec3("place", "m").required()}, at, "number")
       .ordered_or_named();
   model
       .add("reaction",
@@ -214,26 +201,20 @@ void bind_measures(Module& m) {
            "A node on an edge counts in both sides.",
            {place("on").required().doc("where: one place")}, reaction, "number[]", "N, {x, y, z}")
       .ordered_or_named();
-  model.add("fields", "Names that max, min, mean, at and probe understand.", {}, fields, "string[]")
-      .ordered_or_named();
-  model.add("energy", "Energy ledger.", {}, energy, "cdem.Energy").ordered_or_named();
-  model
-      .add("overlap", "How far contacts let blocks into each other, as a volume.", {}, overlap,
-           "cdem.Overlap")
-      .ordered_or_named();
-  model.add("blocks", "One table per block.", {}, blocks, "cdem.BlockState[]").ordered_or_named();
-  model.add("breaks", "One table per broken bond, the oldest first.", {}, breaks, "cdem.Break[]")
-      .ordered_or_named();
-  model
-      .add("history",
-           "Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, "
-           "broken_tension, broken_shear and the probes. The first sample of a run is its beginning. The "
-           "same are in history.csv after each stage.",
-           {}, history, "table<string, number[]>")
-      .ordered_or_named();
+  model.add("fields", "Names that max, min, mean, at and probe understand.", {}, fields, "string[]");
+  model.add("energy", "Energy ledger.", {}, energy, "cdem.Energy");
+  model.add("overlap", "How far contacts let blocks into each other, as a volume.", {}, overlap,
+            "cdem.Overlap");
+  model.add("blocks", "One table per block.", {}, blocks, "cdem.BlockState[]");
+  model.add("breaks", "One table per broken bond, the oldest first.", {}, breaks, "cdem.Break[]");
+  model.add("history",
+            "Histories as lists by name: stage, step, time, residual, kinetic_energy, external_work, "
+            "broken_tension, broken_shear and the probes. The first sample of a run is its beginning. The "
+            "same are in history.csv after each stage.",
+            {}, history, "table<string, number[]>");
   model.add("probe", "Samples a field at a place into the history.",
             {text("name").required().doc("of the column"), field,
-             vec3("at").unit("m").required().doc("undeformed place")},
+             vec3("at", "m").required().doc("undeformed place")},
             probe);
   model.add("record_reaction",
             "Samples the force of the supports and boundaries (model:reaction) on a side or a body into the "

@@ -210,12 +210,10 @@ std::string shown_parts(const PartCounts& in_parts) {
 std::string shown_build(const ModelObject& model) {
   const ModelCounts c = model.simulation.counts();
   const geom::Box box = model.simulation.box();
-  return std::to_string(c.bodies) + (c.bodies == 1 ? " body (" : " bodies (") + joined(model.body_names) +
-         "), " + std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") +
-         std::to_string(c.tets) + (c.tets == 1 ? " tet, " : " tets, ") + std::to_string(c.interfaces) +
-         (c.interfaces == 1 ? " interface, " : " interfaces, ") + std::to_string(c.bonds) +
-         (c.bonds == 1 ? " bond" : " bonds") + "; box from " + shown_vec(box.min) + " to " +
-         shown_vec(box.max) + " m, size " + shown_vec(box.size()) + " m";
+  return geom::counted(c.bodies, "body", "bodies") + " (" + joined(model.body_names) + "), " +
+         geom::counted(c.blocks, "block") + ", " + geom::counted(c.tets, "tet") + ", " +
+         geom::counted(c.interfaces, "interface") + ", " + geom::counted(c.bonds, "bond") + "; box from " +
+         shown_vec(box.min) + " to " + shown_vec(box.max) + " m, size " + shown_vec(box.size()) + " m";
 }
 
 // Laws that hold nothing as the model stands now.
@@ -315,9 +313,8 @@ void bind_model(Module& m) {
           .doc("how its tetrahedra deform: finite_volume (Feng 2014) for any motion, the default; "
                "small_strain (Han 2010) of an assembly whose blocks hardly turn and keep the neighbours they "
                "begin with; rigid: keeps its shape until model:make_deformable"),
-      number("zone_size")
+      number("zone_size", "m")
           .above(0)
-          .unit("m")
           .doc("of an assembly: each block gets tetrahedra of about this edge length inside, so that it "
                "bends and shows where it is stressed; without it a few about its centroid. Joints between "
                "blocks stay as they are"),

@@ -34,10 +34,10 @@ const Record<ProcessZone> process_zone{
     "ProcessZone",
     "The process zone of a law that softens beside the faces that carry it; medians over the faces.",
     {{text("of").doc("body, regions or pair of bodies"), &ProcessZone::of},
-     {number("length").unit("m").doc("E' G_I / T^2, E' = E / (1 - nu^2)"), &ProcessZone::length},
-     {number("face_size").unit("m").doc("edge of an equilateral triangle of the face's area"),
+     {number("length", "m").doc("E' G_I / T^2, E' = E / (1 - nu^2)"), &ProcessZone::length},
+     {number("face_size", "m").doc("edge of an equilateral triangle of the face's area"),
       &ProcessZone::face_size},
-     {number("largest_face_size").unit("m").doc("that leaves three faces in the cohesive zone"),
+     {number("largest_face_size", "m").doc("that leaves three faces in the cohesive zone"),
       &ProcessZone::largest_face_size},
      {number("faces_in_zone").doc("faces in the cohesive zone, 0.88 of the length"),
       &ProcessZone::faces_in_zone}}};
@@ -100,26 +100,21 @@ void bind_model_class(Module& m) {
   model.text = [](const Object& self) {
     const auto& object = static_cast<const ModelObject&>(self);
     const ModelCounts c = object.simulation.counts();
-    return "cdem.Model (" + std::to_string(c.bodies) + (c.bodies == 1 ? " body, " : " bodies, ") +
-           std::to_string(c.blocks) + (c.blocks == 1 ? " block, " : " blocks, ") + std::to_string(c.tets) +
-           (c.tets == 1 ? " tet, " : " tets, ") + std::to_string(c.bonds) +
-           (c.bonds == 1 ? " bond)" : " bonds)");
+    return "cdem.Model (" + geom::counted(c.bodies, "body", "bodies") + ", " +
+           geom::counted(c.blocks, "block") + ", " + geom::counted(c.tets, "tet") + ", " +
+           geom::counted(c.bonds, "bond") + ")";
   };
   model
       .add("select", "Gives a place a name that `on` understands from now on.",
            {text("name").required(), place("on").required()}, select)
       .replayed(Replay::again);
-  model.add("counts", "How many there are of everything.", {}, counts, "cdem.Counts").ordered();
-  model
-      .add("process_zones",
-           "Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.", {},
-           process_zones, "cdem.ProcessZone[]")
-      .ordered();
-  model
-      .add(
-          "box", "Smallest axis-aligned box around the undeformed model.", {},
-          [](ModelObject& self) { return self.simulation.box(); }, "cdem.Box")
-      .ordered();
+  model.add("counts", "How many there are of everything.", {}, counts, "cdem.Counts");
+  model.add("process_zones",
+            "Whether faces resolve the process zone E' G_I / T^2 of what softens, by body and pair.", {},
+            process_zones, "cdem.ProcessZone[]");
+  model.add(
+      "box", "Smallest axis-aligned box around the undeformed model.", {},
+      [](ModelObject& self) { return self.simulation.box(); }, "cdem.Box");
   m.classes.push_back(model);
 }
 

@@ -128,7 +128,7 @@ const Record<PictureOptions> model_view{
           "of the blocks; below 1 broken interfaces inside show through"),
       &PictureOptions::opacity},
      {flag("edges").standard().doc("outlines of the blocks"), &PictureOptions::edges},
-     {record("section", {vec3("point").unit("m").required(), vec3("normal").required()})
+     {record("section", {vec3("point", "m").required(), vec3("normal").required()})
           .doc("a plane: the cut through the undeformed blocks is drawn in place of their faces")},
      {flag("arrows").standard(false).doc("displacement of the blocks that are shown")},
      {flag("crosses").standard(false).doc(

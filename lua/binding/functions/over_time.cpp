@@ -37,8 +37,9 @@ Field amplitude_field() {
 }
 
 Field since_field() {
-  return number("since").unit("s").doc("time of the model at which the amplitude's times begin, 0 when left "
-                                       "out; since = model.time lets it begin now, in a later stage");
+  return number("since", "s")
+      .doc("time of the model at which the amplitude's times begin, 0 when left "
+           "out; since = model.time lets it begin now, in a later stage");
 }
 
 Amplitude amplitude_of(const Arguments& a, double now) {

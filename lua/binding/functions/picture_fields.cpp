@@ -68,15 +68,15 @@ std::optional<std::array<double, 2>> limits_of(const Arguments& a, const std::st
 namespace {
 
 const Record<Camera> camera_record{
-    {{vec3("position").unit("m").required(), &Camera::position},
-     {vec3("focal_point").unit("m").required(), &Camera::focal_point},
+    {{vec3("position", "m").required(), &Camera::position},
+     {vec3("focal_point", "m").required(), &Camera::focal_point},
      {vec3("up").standard(), &Camera::up},
-     {number("view_angle").between(0, 180).unit("deg").standard().doc("over the height of the picture"),
+     {number("view_angle", "deg").between(0, 180).standard().doc("over the height of the picture"),
       &Camera::view_angle},
      {flag("perspective").standard(), &Camera::perspective}}};
 
 const Record<Marker> marker_record{
-    {{vec3("at").unit("m").required().doc("undeformed place"), &Marker::position},
+    {{vec3("at", "m").required().doc("undeformed place"), &Marker::position},
      {text("label"), &Marker::label},
      {colour_field()},
      {number("size").above(0).standard().doc("pixels across"), &Marker::size}}};

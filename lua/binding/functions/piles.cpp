@@ -48,8 +48,9 @@ Field attitude_seed() {
 
 const Record<geom::DropOptions> drop_options{
     {{attitude_seed(), &geom::DropOptions::seed},
-     {number("gap").above(0).unit("m").doc(
-          "between the spheres around units, and under the lowest layer; a tenth of the unit's height"),
+     {number("gap", "m")
+          .above(0)
+          .doc("between the spheres around units, and under the lowest layer; a tenth of the unit's height"),
       &geom::DropOptions::gap},
      {integer("layers")
           .within(1, geom::max_drop_layers)
@@ -63,8 +64,7 @@ const Record<geom::LayerOptions> layer_options{
       &geom::LayerOptions::density},
      {integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
       &geom::LayerOptions::columns},
-     {number("gap").above(0).unit("m").doc("clear distance; 2e-5 of the unit's height"),
-      &geom::LayerOptions::gap},
+     {number("gap", "m").above(0).doc("clear distance; 2e-5 of the unit's height"), &geom::LayerOptions::gap},
      {integer("attitudes")
           .within(1, 1e6)
           .standard()
@@ -239,7 +239,7 @@ Value walls(Session&, PileObject& self, const Arguments& a) {
 const Record<geom::Pose> pose_record{
     "Pose",
     "Place and attitude of a unit.",
-    {{vec3("centroid").unit("m"), &geom::Pose::translation},
+    {{vec3("centroid", "m"), &geom::Pose::translation},
      {list("rotation", vec3_type(), 3).required().doc("rows of the matrix that turns the unit"),
       [](const geom::Pose& pose) { return as_value(pose.rotation); }}}};
 
@@ -252,9 +252,8 @@ void bind_class(Module& m) {
   };
   pile.text = [](const Object& self) {
     const geom::Pile& p = static_cast<const PileObject&>(self).pile;
-    return "cdem.Pile (" + std::to_string(p.poses.size()) +
-           (p.poses.size() == 1 ? " unit of " : " units of ") + std::to_string(p.unit.tets.size()) +
-           (p.unit.tets.size() == 1 ? " tet)" : " tets)");
+    return "cdem.Pile (" + geom::counted(p.poses.size(), "unit") + " of " +
+           geom::counted(p.unit.tets.size(), "tet") + ")";
   };
   pile.property("count", "integer", "", "how many units",
                 [](const PileObject& p) { return p.pile.poses.size(); });
@@ -276,18 +275,17 @@ void bind_class(Module& m) {
            "round. Their inner faces stand at the ends of the pile's box. Their lower edges keep a small gap "
            "from the ground, so that walls and ground can be bodies of one model.",
            {object("onto", "TetMesh").required().doc("the ground, z up"),
-            number("height").above(0).unit("m").doc(
-                "over the ground; that of the highest unit when left out, two units at least"),
-            number("thickness").above(0).unit("m").doc("a unit's height when left out")},
+            number("height", "m")
+                .above(0)
+                .doc("over the ground; that of the highest unit when left out, two units at least"),
+            number("thickness", "m").above(0).doc("a unit's height when left out")},
            walls, "cdem.TetMesh");
   pile.add(
-          "poses", "Place and attitude of each unit.", {},
-          [](PileObject& self) { return pose_record.list(self.pile.poses); }, "cdem.Pose[]")
-      .ordered();
+      "poses", "Place and attitude of each unit.", {},
+      [](PileObject& self) { return pose_record.list(self.pile.poses); }, "cdem.Pose[]");
   pile.add(
-          "box", "Smallest axis-aligned box that holds all units where they are.", {},
-          [](PileObject& self) { return geom::bounding_box(self.pile); }, "cdem.Box")
-      .ordered();
+      "box", "Smallest axis-aligned box that holds all units where they are.", {},
+      [](PileObject& self) { return geom::bounding_box(self.pile); }, "cdem.Box");
   pile.add("save", "Writes the pile, for cdem.read_pile in another script.",
            {text("file").required().doc("ends in .json; in the output folder")}, save_pile);
   m.classes.push_back(pile);

@@ -58,11 +58,11 @@ Value where(Session&, Object*, const Arguments& a) {
 
 void bind_selections(Module& m) {
   m.add("select.plane", "Everything that lies on a plane.",
-        {vec3("point").unit("m").required().doc("any point of the plane"),
+        {vec3("point", "m").required().doc("any point of the plane"),
          vec3("normal").required().doc("of any length")},
         plane, "cdem.Selection");
   m.add("select.box", "Everything inside an axis-aligned box, its faces included.",
-        {vec3("min").unit("m").required(), vec3("max").unit("m").required()}, select_box, "cdem.Selection");
+        {vec3("min", "m").required(), vec3("max", "m").required()}, select_box, "cdem.Selection");
   Type whole_number;
   whole_number.kind = Kind::integer;
   whole_number.range = {1, 1e7};

@@ -31,11 +31,11 @@ const Record<Departure> departure{
     "Departure",
     "A unit that has left its place, or a piece of one that broke.",
     {{integer("unit").doc("number of the unit in its body, from 1"), &Departure::unit},
-     {number("time").unit("s"), &Departure::time},
-     {number("velocity").unit("m/s").doc("of the flow then; nil without one"),
+     {number("time", "s"), &Departure::time},
+     {number("velocity", "m/s").doc("of the flow then; nil without one"),
       [](const Departure& d) { return if_finite(d.velocity); }},
-     {vec3("displacement").unit("m").doc("relative to what it touched"), &Departure::displacement},
-     {vec3("place").unit("m").doc("of its centroid"), &Departure::place},
+     {vec3("displacement", "m").doc("relative to what it touched"), &Departure::displacement},
+     {vec3("place", "m").doc("of its centroid"), &Departure::place},
      {number("share").doc("of the unit's volume; below 1: a piece of it"), &Departure::share}}};
 
 const Record<SettlePhase> settle_phase{
@@ -43,7 +43,7 @@ const Record<SettlePhase> settle_phase{
     "A part of settling.",
     {{text("name"), &SettlePhase::name},
      {integer("steps"), &SettlePhase::steps},
-     {number("time").unit("s").doc("it took"), &SettlePhase::time},
+     {number("time", "s").doc("it took"), &SettlePhase::time},
      {number("kinetic_ratio").doc("kinetic energy over its peak, at its end"), &SettlePhase::kinetic_ratio},
      {number("residual").doc("forces out of balance over the loads, at its end"), &SettlePhase::residual}}};
 
@@ -52,12 +52,12 @@ const Record<SettleResult> settle_record{
     "What settling came to.",
     {{flag("converged"), &SettleResult::converged},
      {number("kinetic_ratio").doc("kinetic energy over its peak"), &SettleResult::kinetic_ratio},
-     {number("peak_kinetic").unit("J"), &SettleResult::peak_kinetic},
+     {number("peak_kinetic", "J"), &SettleResult::peak_kinetic},
      {integer("steps"), &SettleResult::steps},
-     {number("time").unit("s").doc("it took of the model's"), &SettleResult::time},
+     {number("time", "s").doc("it took of the model's"), &SettleResult::time},
      {integer("made_rigid").doc("units, while they fell"), &SettleResult::made_rigid},
      {plain("phases").doc("a list of cdem.SettlePhase"), &SettleResult::phases, settle_phase},
-     {number("wall_time").unit("s"), &SettleResult::wall_time}}};
+     {number("wall_time", "s"), &SettleResult::wall_time}}};
 
 Value watch(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("watch");
@@ -88,14 +88,13 @@ const Record<SettleOptions> settle_options{
           .doc("contacts have no more of it while units settle, so that they slide until they lean on more; "
                "each its own when left out, and afterwards"),
       &SettleOptions::friction_angle},
-     {number("max_time").above(0).standard().unit("s").doc("of the model, then a warning"),
+     {number("max_time", "s").above(0).standard().doc("of the model, then a warning"),
       &SettleOptions::max_time},
      {number("safety").within(0, 1).standard().doc(
           "time step over the stable one; with more, contacts that open and close keep shaking"),
       &SettleOptions::safety},
-     {number("time_step")
+     {number("time_step", "s")
           .above(0)
-          .unit("s")
           .doc("of the rigid fall, at most the stable one, which it is by default"),
       &SettleOptions::time_step},
      {integer("every").at_least(1).doc("steps between calls, 100 by default; in whole twenties")},
@@ -149,7 +148,7 @@ void bind_settling(Module& m) {
             "neighbours are the units and the ground that it touched when the watch began; their mean motion "
             "counts, without that of units that have left.",
             {text("body").formerly("bodies").required().doc("name of a body of meshes"),
-             number("leaves").above(0).unit("m").required().doc("half a unit's height is usual")},
+             number("leaves", "m").above(0).required().doc("half a unit's height is usual")},
             watch, "cdem.Watch", "#watch, watch[i]: the units that have left so far, in order");
   model.add(
       "settle",

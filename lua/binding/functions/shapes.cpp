@@ -37,10 +37,10 @@ Value one_box(Session&, Object*, const Arguments& a) {
 }
 
 Field block_size_field() {
-  return vec3("size").above(0).unit("m").required();
+  return vec3("size", "m").above(0).required();
 }
 Field origin_field() {
-  return vec3("origin").unit("m").standard(Value(geom::Vec3(0, 0, 0))).doc("lower corner");
+  return vec3("origin", "m").standard(Value(geom::Vec3(0, 0, 0))).doc("lower corner");
 }
 Field seed_field() {
   return integer("seed").at_least(0).standard(1).doc("the same seed gives the same blocks on every machine");
@@ -61,7 +61,7 @@ const Record<geom::VoronoiOptions> voronoi_options{
 
 const Record<geom::BrickOptions> brick_options{
     {{block_size_field().doc("of the wall"), &geom::BrickOptions::size},
-     {vec3("brick").above(0).unit("m").required().doc("one brick"), &geom::BrickOptions::brick},
+     {vec3("brick", "m").above(0).required().doc("one brick"), &geom::BrickOptions::brick},
      {number("shift").from(0, 1).standard().doc(
           "of each course against the one below, as a fraction of the brick's length"),
       &geom::BrickOptions::shift},
@@ -76,16 +76,16 @@ const Record<geom::JointSet> joint_set{
           .required()
           .doc("clockwise from +y (north) seen from above"),
       &geom::JointSet::dip_direction},
-     {number("spacing").above(0).unit("m").required().doc("mean, along the normal"),
-      &geom::JointSet::spacing},
+     {number("spacing", "m").above(0).required().doc("mean, along the normal"), &geom::JointSet::spacing},
      {number("spacing_scatter").from(0, 0.5).standard().doc("standard deviation over the mean"),
       &geom::JointSet::spacing_scatter},
      {number("dip_scatter").within(0, 90).in_degrees().standard().doc("standard deviation"),
       &geom::JointSet::dip_scatter},
      {number("direction_scatter").within(0, 360).in_degrees().standard().doc("standard deviation"),
       &geom::JointSet::direction_scatter},
-     {vec3("origin").unit("m").doc("a plane runs through it; without it the planes are counted from the "
-                                   "lowest corner of the blocks along the normal"),
+     {vec3("origin", "m")
+          .doc("a plane runs through it; without it the planes are counted from the "
+               "lowest corner of the blocks along the normal"),
       &geom::JointSet::origin},
      {integer("count").at_least(1).doc(
           "planes next to the origin, on both sides of it; next to the centre of the blocks where no origin "
@@ -147,8 +147,8 @@ Value cut_by_discs(Session& session, Object*, const Arguments& a) {
                                           a.optional_number("clearance"), &moved);
   if (moved.count > 0)
     session.message(
-        "cut_by_discs: " + std::to_string(moved.count) + (moved.count == 1 ? " cut was" : " cuts were") +
-        " moved, by up to " + three_digits(moved.farthest) +
+        "cut_by_discs: " + geom::counted(moved.count, "cut was", "cuts were") + " moved, by up to " +
+        three_digits(moved.farthest) +
         " m, to keep clear of corners of blocks; clearance says how near they may come, 0 cuts exactly");
   return made(std::move(cut));
 }
@@ -209,9 +209,8 @@ Splinters splinters_of(const geom::Assembly& assembly) {
 const Record<geom::PlaneCutOptions> plane_cut{
     {{box("inside").doc("only blocks whose centroid lies in this box")},
      {box("crossing").doc("only blocks that reach into this box: the notch or the load line to be cut")},
-     {number("clearance")
+     {number("clearance", "m")
           .at_least(0)
-          .unit("m")
           .standard()
           .doc("where a vertex of a block is nearer than this, the plane is shifted for that block"),
       &geom::PlaneCutOptions::clearance},
@@ -234,7 +233,7 @@ Value cut_by_plane(Session& session, Object*, const Arguments& a) {
   geom::Assembly parts = geom::cut_by_plane(whole, geom::Plane::through(a.vec3("point"), normal), options);
   const Splinters splinters = splinters_of(parts);
   if (const std::int64_t made_here = splinters.count - splinters_of(whole).count; made_here > 0)
-    session.warn("cut_by_plane: " + std::to_string(made_here) + (made_here == 1 ? " block" : " blocks") +
+    session.warn("cut_by_plane: " + geom::counted(made_here, "block") +
                  " thinner than a ten-thousandth of its size, down to " + three_digits(splinters.thinnest) +
                  " m at " + place_text(splinters.place) +
                  " m: the plane runs along a face; move it, or give clearance");
@@ -267,9 +266,9 @@ double volume(const geom::Assembly& assembly) {
 const Record<geom::Polyhedron> block_record{
     "Block",
     "One block of an assembly.",
-    {{vec3("centroid").unit("m"),
+    {{vec3("centroid", "m"),
       [](const geom::Polyhedron& block) { return geom::mass_properties(block).centroid; }},
-     {number("volume").unit("m3"),
+     {number("volume", "m3"),
       [](const geom::Polyhedron& block) { return geom::mass_properties(block).volume; }},
      {integer("faces").doc("number of faces"),
       [](const geom::Polyhedron& block) { return block.faces.size(); }},
@@ -290,9 +289,8 @@ void bind_builders(Module& m) {
         "below 1 last.",
         {object("shape", "Assembly").required(), list("sets", record_type(joint_set.fields())).required(),
          seed_field(),
-         number("smallest")
+         number("smallest", "m")
              .at_least(0)
-             .unit("m")
              .standard(0.0)
              .doc("blocks whose least height over a face is smaller are splinters, which fail before the "
                   "rock does and shorten the time step. A splinter is united with a neighbour if both "
@@ -304,9 +302,8 @@ void bind_builders(Module& m) {
         "holds.",
         {object("shape", "Assembly").required(),
          list("discs", record_type(disc_record().fields())).required(),
-         number("clearance")
+         number("clearance", "m")
              .at_least(0)
-             .unit("m")
              .doc("a cut that comes nearer to a corner of its block than this without running through it is "
                   "moved away, since thin blocks fail early and shorten the time step; 0 cuts exactly; 1e-3 "
                   "of each block's diagonal when left out. What is moved is told")},
@@ -330,17 +327,16 @@ void bind_builders(Module& m) {
 void bind_edits(Module& m) {
   const Field shape = object("shape", "Assembly").required().doc("left as it is; the result is a new one");
   m.add("cut_by_plane", "Splits every block that a plane crosses.",
-        std::vector<Field>{shape, vec3("point").unit("m").required().doc("any point of the plane"),
+        std::vector<Field>{shape, vec3("point", "m").required().doc("any point of the plane"),
                            vec3("normal").required().doc("of any length")} +
             plane_cut.fields(),
         cut_by_plane, "cdem.Assembly");
   m.add("keep", "The blocks whose centroid lies in a box.", {shape, box("inside").required()}, keep_blocks,
         "cdem.Assembly");
-  m.add("translate", "Moves blocks.", {shape, vec3("shift").unit("m").required()}, translate,
-        "cdem.Assembly");
+  m.add("translate", "Moves blocks.", {shape, vec3("shift", "m").required()}, translate, "cdem.Assembly");
   m.add("rotate", "Turns blocks, right-handed, about an axis through `centre`.",
-        {shape, vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
-         vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+        {shape, vec3("axis").required().doc("of any length"), number("angle", "deg").required(),
+         vec3("centre", "m").standard(Value(geom::Vec3(0, 0, 0)))},
         rotate, "cdem.Assembly");
   m.add("merge", "One assembly of the blocks of several.",
         {list("shapes", object_type("Assembly")).required()}, merge, "cdem.Assembly");
@@ -360,29 +356,21 @@ void bind_shapes(Module& m) {
   };
   assembly.text = [](const Object& self) {
     const auto count = static_cast<const AssemblyObject&>(self).assembly.blocks.size();
-    return "cdem.Assembly (" + std::to_string(count) + (count == 1 ? " block)" : " blocks)");
+    return "cdem.Assembly (" + geom::counted(count, "block") + ")";
   };
-  assembly
-      .add(
-          "volume", "Sum over the blocks, m3.", {},
-          [](AssemblyObject& self) { return volume(self.assembly); }, "number", "m3")
-      .ordered();
-  assembly
-      .add(
-          "box", "Smallest axis-aligned box that holds all blocks.", {},
-          [](AssemblyObject& self) { return geom::bounding_box(self.assembly); }, "cdem.Box")
-      .ordered();
-  assembly
-      .add(
-          "joint_sets",
-          "Names of the joint sets and cuts that made faces of the blocks, in the order of the alphabet.", {},
-          [](AssemblyObject& self) { return geom::cut_names(self.assembly); }, "string[]")
-      .ordered();
-  assembly
-      .add(
-          "blocks", "One table per block.", {},
-          [](AssemblyObject& self) { return block_record.list(self.assembly.blocks); }, "cdem.Block[]")
-      .ordered();
+  assembly.add(
+      "volume", "Sum over the blocks, m3.", {}, [](AssemblyObject& self) { return volume(self.assembly); },
+      "number", "m3");
+  assembly.add(
+      "box", "Smallest axis-aligned box that holds all blocks.", {},
+      [](AssemblyObject& self) { return geom::bounding_box(self.assembly); }, "cdem.Box");
+  assembly.add(
+      "joint_sets",
+      "Names of the joint sets and cuts that made faces of the blocks, in the order of the alphabet.", {},
+      [](AssemblyObject& self) { return geom::cut_names(self.assembly); }, "string[]");
+  assembly.add(
+      "blocks", "One table per block.", {},
+      [](AssemblyObject& self) { return block_record.list(self.assembly.blocks); }, "cdem.Block[]");
   assembly.add("solid",
                "The blocks as one solid with a region for each, in their order. Its mesh shares nodes on the "
                "faces between them. As the shape of a body, such a mesh breaks along the faces of the blocks "

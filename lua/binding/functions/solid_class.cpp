@@ -99,47 +99,40 @@ Value save_solid(Session& session, SolidObject& self, const Arguments& a) {
 
 void add_methods(Class& solid) {
   const std::vector<Field> refinement{
-      vec3("at").unit("m").doc("near a point"),
+      vec3("at", "m").doc("near a point"),
       list("line", vec3_type(), 2).unit("m").doc("along a line, an edge"), box("box").doc("in a box"),
-      number("size").above(0).unit("m").required(),
-      number("radius").at_least(0).unit("m").standard(0.0).doc("how far the size holds")};
-  solid
-      .add(
-          "volume", "", {}, [](SolidObject& self) { return geom::mass_properties(self.solid).volume; },
-          "number", "m3")
-      .ordered();
-  solid
-      .add(
-          "regions", "Volume of each region, m3.", {},
-          [](SolidObject& self) { return geom::region_volumes(self.solid); }, "number[]")
-      .ordered();
-  solid
-      .add(
-          "box",
-          "Axis-aligned box around the solid; where curved faces are cut by others it may be up to 1 % too "
-          "large.",
-          {}, [](SolidObject& self) { return geom::bounding_box(self.solid); }, "cdem.Box")
-      .ordered();
+      number("size", "m").above(0).required(),
+      number("radius", "m").at_least(0).standard(0.0).doc("how far the size holds")};
   solid.add(
-      "inertia", "Mass, centroid and inertia about the centroid.",
-      {number("density").above(0).unit("kg/m3").doc("the solid's own when left out; 1 when it has none")},
-      inertia, "cdem.Inertia");
+      "volume", "", {}, [](SolidObject& self) { return geom::mass_properties(self.solid).volume; }, "number",
+      "m3");
+  solid.add(
+      "regions", "Volume of each region, m3.", {},
+      [](SolidObject& self) { return geom::region_volumes(self.solid); }, "number[]");
+  solid.add(
+      "box",
+      "Axis-aligned box around the solid; where curved faces are cut by others it may be up to 1 % too "
+      "large.",
+      {}, [](SolidObject& self) { return geom::bounding_box(self.solid); }, "cdem.Box");
+  solid.add("inertia", "Mass, centroid and inertia about the centroid.",
+            {number("density", "kg/m3").above(0).doc("the solid's own when left out; 1 when it has none")},
+            inertia, "cdem.Inertia");
   solid.add("mesh", "Tetrahedra that fill the solid; the same call gives the same mesh.",
-            {number("size").above(0).unit("m").doc("edge length; the solid's mesh_size when left out"),
+            {number("size", "m").above(0).doc("edge length; the solid's mesh_size when left out"),
              list("refine", record_type(refinement), 0).doc("smaller tetrahedra in some places"),
              number("growth").within(0.05, 2).standard(0.3).doc(
                  "m of size per m of distance from a refined place")},
             mesh, "cdem.TetMesh");
   solid.add(
-      "translate", "A moved copy.", {vec3("shift").unit("m").required()},
+      "translate", "A moved copy.", {vec3("shift", "m").required()},
       [](Session&, SolidObject& self, const Arguments& a) -> Value {
         return moved(self, geom::translated(self.solid, a.vec3("shift")));
       },
       "cdem.Solid");
   solid.add(
       "rotate", "A copy turned, right-handed, about an axis through `centre`.",
-      {vec3("axis").required().doc("of any length"), number("angle").unit("deg").required(),
-       vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+      {vec3("axis").required().doc("of any length"), number("angle", "deg").required(),
+       vec3("centre", "m").standard(Value(geom::Vec3(0, 0, 0)))},
       [](Session&, SolidObject& self, const Arguments& a) -> Value {
         return moved(self,
                      geom::rotated(self.solid, a.vec3("axis"), radians(a.number("angle")), a.vec3("centre")));
@@ -147,7 +140,7 @@ void add_methods(Class& solid) {
       "cdem.Solid");
   solid.add(
       "scale", "A copy of another size.",
-      {number("factor").above(0).required(), vec3("centre").unit("m").standard(Value(geom::Vec3(0, 0, 0)))},
+      {number("factor").above(0).required(), vec3("centre", "m").standard(Value(geom::Vec3(0, 0, 0)))},
       [](Session&, SolidObject& self, const Arguments& a) -> Value {
         return moved(self, geom::scaled(self.solid, a.number("factor"), a.vec3("centre")),
                      a.number("factor"));
@@ -173,10 +166,10 @@ struct Inertia {
 const Record<Inertia> inertia_record{
     "Inertia",
     "About the centroid.",
-    {{number("mass").unit("kg"), &Inertia::mass},
-     {vec3("centroid").unit("m"), &Inertia::centroid},
+    {{number("mass", "kg"), &Inertia::mass},
+     {vec3("centroid", "m"), &Inertia::centroid},
      {list("tensor", vec3_type()).unit("kg m2").doc("three rows"), &Inertia::tensor},
-     {vec3("principal").unit("kg m2").doc("ascending"),
+     {vec3("principal", "kg m2").doc("ascending"),
       [](const Inertia& inertia) {
         const Eigen::SelfAdjointEigenSolver<geom::Mat3> solver(inertia.tensor, Eigen::EigenvaluesOnly);
         return geom::Vec3(solver.eigenvalues());

@@ -61,13 +61,12 @@ Value read_solid(Session& session, Object*, const Arguments& a) {
 
 void bind_solid_builders(Module& m) {
   const auto place = [](std::string name) {
-    return vec3(std::move(name)).unit("m").standard(Value(geom::Vec3(0, 0, 0)));
+    return vec3(std::move(name), "m").standard(Value(geom::Vec3(0, 0, 0)));
   };
-  const Field radius = number("radius").above(0).unit("m").required();
-  const Field axis = vec3("axis").unit("m").required().doc("from the middle of the base to that of the top");
+  const Field radius = number("radius", "m").above(0).required();
+  const Field axis = vec3("axis", "m").required().doc("from the middle of the base to that of the top");
   m.add(
-      "solid.box", "A box.",
-      {vec3("size").above(0).unit("m").required(), place("origin").doc("lower corner")},
+      "solid.box", "A box.", {vec3("size", "m").above(0).required(), place("origin").doc("lower corner")},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::box(a.vec3("size"), a.vec3("origin")), "box");
       },
@@ -80,9 +79,8 @@ void bind_solid_builders(Module& m) {
       "cdem.Solid");
   m.add(
       "solid.cone", "A cone, cut off at the top unless top_radius is 0.",
-      {number("radius").at_least(0).unit("m").required().doc("of the base"),
-       number("top_radius").at_least(0).unit("m").standard(0.0), axis,
-       place("base").doc("middle of the base")},
+      {number("radius", "m").at_least(0).required().doc("of the base"),
+       number("top_radius", "m").at_least(0).standard(0.0), axis, place("base").doc("middle of the base")},
       [](Session&, Object*, const Arguments& a) -> Value {
         return made(geom::cone(a.vec3("base"), a.vec3("axis"), a.number("radius"), a.number("top_radius")),
                     "cone");

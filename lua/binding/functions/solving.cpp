@@ -46,8 +46,8 @@ std::string moving_text(const RelaxResult& r) {
 
 void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResult& r) {
   const std::string found = "relax" + (options.note.empty() ? "" : ", " + options.note) + ": " +
-                            name(r.verdict) + " after " + std::to_string(r.steps) +
-                            (r.steps == 1 ? " step" : " steps") + ", residual " + three_digits(r.residual);
+                            name(r.verdict) + " after " + geom::counted(r.steps, "step") + ", residual " +
+                            three_digits(r.residual);
   if (r.verdict == Verdict::undecided)
     session.warn(found + " above " + number_text(options.residual) +
                  ": not converged; raise max_steps, or look whether something moves freely");
@@ -116,15 +116,15 @@ const Record<RunResult> run_record{
     "RunResult",
     "What real-time stepping came to.",
     {{integer("steps"), &RunResult::steps},
-     {number("time").unit("s").doc("of the model"), &RunResult::time},
-     {number("time_step").unit("s"), &RunResult::time_step},
+     {number("time", "s").doc("of the model"), &RunResult::time},
+     {number("time_step", "s"), &RunResult::time_step},
      {integer("broken_tension").doc("bonds, in this stage"), &RunResult::broken_tension},
      {integer("broken_shear").doc("bonds, in this stage"), &RunResult::broken_shear},
-     {number("wall_time").unit("s"), &RunResult::wall_time},
+     {number("wall_time", "s"), &RunResult::wall_time},
      {mass_scaling_result_field()}}};
 
 const Record<RunOptions> run_options{
-    {{number("duration").above(0).unit("s"), &RunOptions::duration},
+    {{number("duration", "s").above(0), &RunOptions::duration},
      {integer("steps").at_least(1).doc("instead of duration"), &RunOptions::steps},
      {number("safety")
           .above(0)
@@ -132,9 +132,8 @@ const Record<RunOptions> run_options{
           .doc("time step over the stable one, at most 1; rigid bodies that touch take 0.5 at most")
           .standard(),
       &RunOptions::safety},
-     {number("time_step")
+     {number("time_step", "s")
           .above(0)
-          .unit("s")
           .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
       &RunOptions::time_step},
      {mass_scaling_field()},
@@ -218,12 +217,12 @@ const Record<RelaxResult> relax_record{
      {number("residual"), &RelaxResult::residual},
      {integer("broken_tension").doc("bonds, in this stage"), &RelaxResult::broken_tension},
      {integer("broken_shear").doc("bonds, in this stage"), &RelaxResult::broken_shear},
-     {number("wall_time").unit("s"), &RelaxResult::wall_time},
-     {number("moving").unit("m").doc("what the fastest node moved in the last 200 steps that were looked at"),
+     {number("wall_time", "s"), &RelaxResult::wall_time},
+     {number("moving", "m").doc("what the fastest node moved in the last 200 steps that were looked at"),
       [](const RelaxResult& r) { return if_moving(r, r.moving); }},
      {integer("moving_block").doc("its block"),
       [](const RelaxResult& r) { return if_moving(r, r.moving_block); }},
-     {vec3("moving_place").unit("m").doc("where it was, undeformed"),
+     {vec3("moving_place", "m").doc("where it was, undeformed"),
       [](const RelaxResult& r) { return if_moving(r, r.moving_place); }},
      {text("trial").doc("as given")}}};
 
@@ -245,7 +244,7 @@ void bind_solving(Module& m) {
            after_stage)
       .ordered()
       .replayed(Replay::again);
-  model.add("stages", "The model's solving calls so far.", {}, stages, "cdem.Stage[]").ordered();
+  model.add("stages", "The model's solving calls so far.", {}, stages, "cdem.Stage[]");
 }
 
 } // namespace cdem::script

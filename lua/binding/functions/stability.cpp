@@ -120,13 +120,13 @@ void bind_stability_records(Module& m) {
       {"Mechanism",
        "What fails: the blocks that have moved by a fifth of the largest displacement or more.",
        {list("blocks", number("").type, 0).required().doc("their ids, the largest displacement first"),
-        number("volume").unit("m3").required().doc("of all of them"),
-        number("largest").unit("m3").required().doc("volume of the largest"),
+        number("volume", "m3").required().doc("of all of them"),
+        number("largest", "m3").required().doc("volume of the largest"),
         number("share").required().doc("of the volume of all blocks"),
-        vec3("centroid").unit("m").required().doc("of all of them, where they were"),
-        vec3("min").unit("m").required().doc("lower corner of the box of their centroids"),
-        vec3("max").unit("m").required(),
-        vec3("displacement").unit("m").required().doc("mean by volume, from the balance of the model")}});
+        vec3("centroid", "m").required().doc("of all of them, where they were"),
+        vec3("min", "m").required().doc("lower corner of the box of their centroids"),
+        vec3("max", "m").required(),
+        vec3("displacement", "m").required().doc("mean by volume, from the balance of the model")}});
   m.records.push_back(
       {"FactorOfSafety",
        "What the search for the factor of safety came to.",
@@ -148,12 +148,11 @@ void bind_stability_records(Module& m) {
 void bind_stability(Module& m) {
   bind_stability_records(m);
   Class& model = m.the_class("Model");
-  model
-      .add("copy",
-           "Another model in the same state, with the same conditions and without histories and probes; what "
-           "becomes of one does not touch the other.",
-           {}, copy, "cdem.Model")
-      .ordered();
+  model.add(
+      "copy",
+      "Another model in the same state, with the same conditions and without histories and probes; what "
+      "becomes of one does not touch the other.",
+      {}, copy, "cdem.Model");
   model.add("reduce_strength",
             "Divides strengths by a factor: cohesion, tan(phi) and tensile strength. Stiffness, fracture "
             "energies and the state stay; glued faces never break. A second call acts on top of the first.",
@@ -179,9 +178,8 @@ void bind_stability(Module& m) {
            .at_least(1)
            .standard(200000)
            .doc("of each relaxation; a trial that is undecided then counts as failing, with a warning"),
-       number("smallest")
+       number("smallest", "m3")
            .at_least(0)
-           .unit("m3")
            .doc("volume of a mechanism that counts, 0 when left out: blocks that fail and are smaller "
                 "together are removed "
                 "from the trial, which goes on without them; their number is told"),

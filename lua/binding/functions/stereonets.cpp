@@ -170,8 +170,8 @@ void bind_stereonets(Module& m) {
              .doc("blocks: poles of the planes that cut them, by joint set or name of the cut; glued cuts "
                   "are no joints"),
          list("planes", record_type({text("name").required().doc("in the legend"),
-                                     number("dip").within(0, 90).unit("deg").required(),
-                                     number("dip_direction").within(0, 360).unit("deg").required(),
+                                     number("dip", "deg").within(0, 90).required(),
+                                     number("dip_direction", "deg").within(0, 360).required(),
                                      flag("dashed").standard(false), colour_field()}))
              .doc("great circles: slope faces, mean planes of sets"),
          text("title"), size_field(), dpi_field()},

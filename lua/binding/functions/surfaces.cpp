@@ -87,10 +87,10 @@ Value clip(Session& session, Object*, const Arguments& a) {
                              : "inside, outside or both: the surface is closed");
   geom::Clipped clipped = geom::clip(a.object<AssemblyObject>("shape")->assembly, surface, options);
   if (clipped.thin > 0)
-    session.warn("clip: " + std::to_string(clipped.thin) +
-                 (clipped.thin == 1 ? " piece is thinner than a twentieth of its block, "
-                                    : " pieces are thinner than a twentieth of their blocks, the thinnest ") +
-                 three_digits(clipped.thinnest) + " m at " + place_text(clipped.thinnest_place) +
+    session.warn("clip: " +
+                 geom::counted(clipped.thin, "piece is thinner than a twentieth of its block,",
+                               "pieces are thinner than a twentieth of their blocks, the thinnest") +
+                 " " + three_digits(clipped.thinnest) + " m at " + place_text(clipped.thinnest_place) +
                  " m; thin blocks shorten the time step: give a tolerance (m) that is larger, within which "
                  "facets are cut as one plane");
   auto object = std::make_shared<AssemblyObject>();
@@ -116,8 +116,7 @@ void bind_surfaces(Module& m) {
         "told.",
         {text("file").required().doc("ends in .stl, .dxf, .obj, .off, .ply or .ts"),
          number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a file in millimetres"),
-         vec3("shift")
-             .unit("m")
+         vec3("shift", "m")
              .standard(Value(geom::Vec3(0, 0, 0)))
              .doc("is added to the coordinates: a survey far from the origin loses its digits")},
         read_surface, "cdem.Surface");
@@ -137,9 +136,8 @@ void bind_surfaces(Module& m) {
              .required()
              .doc("inside and outside of a closed surface or a solid, below and above an open one; both: "
                   "only cut, the outline of a later excavation (model:remove)"),
-         number("tolerance")
+         number("tolerance", "m")
              .at_least(0)
-             .unit("m")
              .standard(0.0)
              .doc("how far the cuts may leave the surface; makes fewer pieces and no thinner ones. 0: exact; "
                   "curved solids need one"),
@@ -157,21 +155,15 @@ void bind_surfaces(Module& m) {
     return "cdem.Surface (" +
            std::to_string(static_cast<const SurfaceObject&>(self).surface.triangles.size()) + " triangles)";
   };
-  object
-      .add(
-          "area", "The area of all triangles, m2.", {},
-          [](SurfaceObject& self) { return area(self.surface); }, "number", "m2")
-      .ordered();
-  object
-      .add(
-          "closed", "Whether every edge belongs to two triangles.", {},
-          [](SurfaceObject& self) { return geom::open_edges(self.surface).empty(); }, "boolean")
-      .ordered();
-  object
-      .add(
-          "box", "Smallest axis-aligned box that holds it.", {},
-          [](SurfaceObject& self) { return geom::bounding_box(self.surface); }, "cdem.Box")
-      .ordered();
+  object.add(
+      "area", "The area of all triangles, m2.", {}, [](SurfaceObject& self) { return area(self.surface); },
+      "number", "m2");
+  object.add(
+      "closed", "Whether every edge belongs to two triangles.", {},
+      [](SurfaceObject& self) { return geom::open_edges(self.surface).empty(); }, "boolean");
+  object.add(
+      "box", "Smallest axis-aligned box that holds it.", {},
+      [](SurfaceObject& self) { return geom::bounding_box(self.surface); }, "cdem.Box");
   m.classes.push_back(object);
 }
 

@@ -305,8 +305,9 @@ void bind_sweep(Module& m) {
                        {plain("set").required().doc("as given"),
                         text("output").required().doc("its folder, in the output folder"),
                         integer("exit_code").required().doc("0 when it succeeded"),
-                        number("seconds").unit("s").required().doc(
-                            "wall clock; 0 for a run that had ended before its sweep was stopped"),
+                        number("seconds", "s")
+                            .required()
+                            .doc("wall clock; 0 for a run that had ended before its sweep was stopped"),
                         plain("figures").required().doc(
                             "values of its report by name; empty when it failed, and in a check")}});
   m.add("sweep",

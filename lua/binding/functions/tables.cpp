@@ -39,8 +39,7 @@ Value write_csv(Session& session, Object*, const Arguments& a) {
       values.push_back(value.number());
     }
     if (!columns.empty() && columns.front().second.size() != values.size())
-      throw InputError("column \"" + name + "\" has " + std::to_string(values.size()) +
-                       (values.size() == 1 ? " value" : " values") + ": must be " +
+      throw InputError("column \"" + name + "\" has " + geom::counted(values.size(), "value") + ": must be " +
                        std::to_string(columns.front().second.size()) + ", as many as \"" +
                        columns.front().first + "\"");
     columns.emplace_back(name, std::move(values));
@@ -99,7 +98,6 @@ void bind_tables(Module& m) {
   m.add(
        "elapsed", "Wall-clock time since the script began, s.", {},
        [](Session& session, Object*, const Arguments&) -> Value { return session.elapsed(); }, "number")
-      .ordered()
       .replayed(Replay::recorded)
       .by_rank_0();
   m.constants.push_back({"version", "Version of the toolkit.", CDEM_VERSION});

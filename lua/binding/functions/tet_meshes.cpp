@@ -70,29 +70,28 @@ const Record<geom::MeshQuality> mesh_quality{
     {{integer("nodes"), &geom::MeshQuality::nodes},
      {integer("tets"), &geom::MeshQuality::tets},
      {integer("outer_faces"), &geom::MeshQuality::outer_faces},
-     {number("volume").unit("m3"), &geom::MeshQuality::volume},
-     {number("min_volume").unit("m3"), &geom::MeshQuality::min_volume},
-     {number("max_volume").unit("m3"), &geom::MeshQuality::max_volume},
+     {number("volume", "m3"), &geom::MeshQuality::volume},
+     {number("min_volume", "m3"), &geom::MeshQuality::min_volume},
+     {number("max_volume", "m3"), &geom::MeshQuality::max_volume},
      {number("min_radius_ratio").doc("3 r_inscribed / r_circumscribed: 1 regular, 0 flat"),
       &geom::MeshQuality::min_radius_ratio},
      {number("mean_radius_ratio"), &geom::MeshQuality::mean_radius_ratio},
      {number("min_dihedral").in_degrees().doc("70.5 in a regular tetrahedron"),
       &geom::MeshQuality::min_dihedral},
      {number("max_dihedral").in_degrees(), &geom::MeshQuality::max_dihedral},
-     {number("min_height").unit("m").doc("corner to opposite face: limits the time step"),
+     {number("min_height", "m").doc("corner to opposite face: limits the time step"),
       &geom::MeshQuality::min_height},
-     {number("min_edge").unit("m"), &geom::MeshQuality::min_edge},
-     {number("mean_edge").unit("m"), &geom::MeshQuality::mean_edge},
-     {number("max_edge").unit("m"), &geom::MeshQuality::max_edge}}};
+     {number("min_edge", "m"), &geom::MeshQuality::min_edge},
+     {number("mean_edge", "m"), &geom::MeshQuality::mean_edge},
+     {number("max_edge", "m"), &geom::MeshQuality::max_edge}}};
 
 const Record<geom::FaceGroup> face_group{
     "FaceGroup",
     "Outer faces of a mesh that were picked.",
     {{integer("count").required()},
-     {number("area").unit("m2"), &geom::FaceGroup::area},
-     {vec3("centroid").unit("m"), &geom::FaceGroup::centroid},
-     {vec3("area_vector").unit("m2").doc("sum of outward normals times area"),
-      &geom::FaceGroup::area_vector}}};
+     {number("area", "m2"), &geom::FaceGroup::area},
+     {vec3("centroid", "m"), &geom::FaceGroup::centroid},
+     {vec3("area_vector", "m2").doc("sum of outward normals times area"), &geom::FaceGroup::area_vector}}};
 
 Table quality(TetMeshObject& self) {
   return mesh_quality(geom::quality(self.mesh));
@@ -162,8 +161,10 @@ std::vector<Field> mesh_picture_declaration() {
                                           "y");
   fields.push_back(
       choice("edges", {"creases", "mesh", "none"}).standard("creases").doc("lines on the surface"));
-  fields.push_back(number("crease").within(0, 180).unit("deg").standard(25.0).doc(
-      "the surface is outlined where it turns by more than this"));
+  fields.push_back(number("crease", "deg")
+                       .within(0, 180)
+                       .standard(25.0)
+                       .doc("the surface is outlined where it turns by more than this"));
   return fields;
 }
 
@@ -178,13 +179,12 @@ void bind_tet_meshes(Module& m) {
              "what parts the mesh into regions: \"physical\" groups or \"volumes\" of gmsh, \"sections\" or "
              "element \"sets\" of Abaqus, the name of a cell array of VTK; chosen and told when left out"),
          number("scale").within(1e-6, 1e6).standard(1.0).doc("0.001 for a mesh in millimetres"),
-         vec3("shift")
-             .unit("m")
+         vec3("shift", "m")
              .standard(Value(geom::Vec3(0, 0, 0)))
              .doc("is added to the coordinates: a survey far from the origin loses its digits")},
         read_tet_mesh, "cdem.TetMesh");
   m.add("box_mesh", "A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.",
-        {vec3("size").above(0).unit("m").required(),
+        {vec3("size", "m").above(0).required(),
          ivec3("divisions").at_least(1).required().doc("cells along x, y and z"),
          number("jitter")
              .within(0, geom::max_box_jitter)
@@ -196,13 +196,13 @@ void bind_tet_meshes(Module& m) {
         "An open surface as a wall, such as a drum, a funnel, a chute or a terrain: the mesh of a rigid body "
         "that is held. The surface is one side of the wall; the other side lies behind it.",
         {object("surface", "Surface").required().doc("cdem.read_surface or cdem.surface"),
-         number("thickness")
+         number("thickness", "m")
              .above(0)
-             .unit("m")
              .required()
              .doc("more than bodies reach into it and move in a step; less than the surface is bent"),
-         vec3("front").unit("m").doc("a place on the side that bodies touch, such as the middle of a drum; "
-                                     "where the triangles' normals point when left out")},
+         vec3("front", "m")
+             .doc("a place on the side that bodies touch, such as the middle of a drum; "
+                  "where the triangles' normals point when left out")},
         shell_mesh, "cdem.TetMesh");
   m.records.insert(m.records.end(), {mesh_quality, face_group});
   Class mesh{"TetMesh", "Tetrahedra, made by solid:mesh{} or cdem.read_mesh."};
@@ -222,37 +222,33 @@ void bind_tet_meshes(Module& m) {
                 "how many sets of tetrahedra share no node; in a model each moves by itself",
                 [](const TetMeshObject& self) { return self.parts; });
   mesh.text = [of](const Object& self) {
-    return "cdem.TetMesh (" + of(self).title + ", " + std::to_string(of(self).mesh.tets.size()) +
-           (of(self).mesh.tets.size() == 1 ? " tet" : " tets") +
+    return "cdem.TetMesh (" + of(self).title + ", " + geom::counted(of(self).mesh.tets.size(), "tet") +
            (of(self).parts > 1 ? ", in " + std::to_string(of(self).parts) + " parts)" : ")");
   };
   mesh.add(
-          "volume", "", {}, [](TetMeshObject& self) { return geom::volume(self.mesh); }, "number", "m3")
-      .ordered();
+      "volume", "", {}, [](TetMeshObject& self) { return geom::volume(self.mesh); }, "number", "m3");
   mesh.add(
-          "box", "Smallest axis-aligned box that holds all nodes.", {},
-          [](TetMeshObject& self) { return geom::bounding_box(self.mesh); }, "cdem.Box")
-      .ordered();
+      "box", "Smallest axis-aligned box that holds all nodes.", {},
+      [](TetMeshObject& self) { return geom::bounding_box(self.mesh); }, "cdem.Box");
   mesh.add(
       "inertia", "Mass, centroid and inertia about the centroid of the tetrahedra.",
-      {number("density").above(0).unit("kg/m3").standard(1.0)},
+      {number("density", "kg/m3").above(0).standard(1.0)},
       [](Session&, TetMeshObject& self, const Arguments& a) -> Value {
         return inertia_table(geom::mass_properties(self.mesh), a.number("density"));
       },
       "cdem.Inertia");
-  mesh.add("quality", "How good the tetrahedra are.", {}, quality, "cdem.MeshQuality").ordered();
-  mesh.add("faces",
-           "Picks outer faces. With a name, files and pictures show them as point field on_<name>. In a "
-           "model that is made of the mesh afterwards they are a place: cdem.select.faces.",
-           {choice("side", {"x-", "x+", "y-", "y+", "z-", "z+"}).doc("faces in that face of the mesh's box"),
-            record("plane", {vec3("point").unit("m").required(), vec3("normal").required()})
-                .doc("faces in a plane"),
-            number("tolerance").at_least(0).unit("m").doc("of plane; 1e-6 of the mesh's size when left out"),
-            vec3("direction").doc("faces whose outward normal points this way"),
-            number("angle").within(0, 90).unit("deg").standard(10.0).doc(
-                "of direction: how far off a normal may be"),
-            text("name")},
-           mesh_faces, "cdem.FaceGroup");
+  mesh.add("quality", "How good the tetrahedra are.", {}, quality, "cdem.MeshQuality");
+  mesh.add(
+      "faces",
+      "Picks outer faces. With a name, files and pictures show them as point field on_<name>. In a "
+      "model that is made of the mesh afterwards they are a place: cdem.select.faces.",
+      {choice("side", {"x-", "x+", "y-", "y+", "z-", "z+"}).doc("faces in that face of the mesh's box"),
+       record("plane", {vec3("point", "m").required(), vec3("normal").required()}).doc("faces in a plane"),
+       number("tolerance", "m").at_least(0).doc("of plane; 1e-6 of the mesh's size when left out"),
+       vec3("direction").doc("faces whose outward normal points this way"),
+       number("angle", "deg").within(0, 90).standard(10.0).doc("of direction: how far off a normal may be"),
+       text("name")},
+      mesh_faces, "cdem.FaceGroup");
   mesh.add("save", "Writes the mesh for ParaView.",
            {text("file").required().doc("ends in .vtu; in the output folder")}, save_mesh)
       .by_rank_0();

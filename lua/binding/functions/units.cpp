@@ -25,7 +25,7 @@ const Record<ContactSummary> contacts_record{
     "Contacts",
     "Contacts of meshed bodies.",
     {{integer("acting").doc("semi-springs and semi-edges now"), &ContactSummary::acting},
-     {number("deepest").unit("m").doc("largest depth so far"), &ContactSummary::deepest},
+     {number("deepest", "m").doc("largest depth so far"), &ContactSummary::deepest},
      {number("deepest_over_tet_height").doc("the same over the height of the lower tet"),
       &ContactSummary::deepest_over_height}}};
 
@@ -53,13 +53,12 @@ const Record<geom::PileMeasures> layer_record{
       &geom::PileMeasures::porosity},
      {number("porosity_error").doc("change when every second column is left out"),
       &geom::PileMeasures::porosity_error},
-     {number("units_per_area").unit("1/m2").doc("volume of solid over area and unit volume"),
+     {number("units_per_area", "1/m2").doc("volume of solid over area and unit volume"),
       &geom::PileMeasures::units_per_area},
      {number("units_per_area_times_dn2").doc("packing density phi = N Dn^2 / A"),
       &geom::PileMeasures::packing_density},
-     {number("thickness").unit("m").doc("mean height of the top above the slope"),
-      &geom::PileMeasures::thickness},
-     {number("area").unit("m2").doc("of slope that was measured"), &geom::PileMeasures::area}}};
+     {number("thickness", "m").doc("mean height of the top above the slope"), &geom::PileMeasures::thickness},
+     {number("area", "m2").doc("of slope that was measured"), &geom::PileMeasures::area}}};
 
 const Record<std::vector<int>> touching_record{
     // other blocks that press on each unit
@@ -146,11 +145,9 @@ void bind_units(Module& m) {
             "cdem.PileMeasures");
   const std::vector<Field> fields{text("body").required(), integer("count").at_least(1).required(),
                                   vec3("up").standard(Value(geom::Vec3(0, 0, 1)))};
-  model
-      .add(
-          "contacts", "How many contacts of meshed bodies act, and how deep they have been.", {},
-          [](ModelObject& self) { return contacts_record(self.simulation.contacts()); }, "cdem.Contacts")
-      .ordered();
+  model.add(
+      "contacts", "How many contacts of meshed bodies act, and how deep they have been.", {},
+      [](ModelObject& self) { return contacts_record(self.simulation.contacts()); }, "cdem.Contacts");
   model.add(
       "lowest_units", "Numbers of the units whose centroids are lowest now, for cdem.select.units.", fields,
       [](Session&, ModelObject& self, const Arguments& a) { return furthest(self, a, -1); }, "integer[]",

@@ -62,9 +62,9 @@ const Record<WaterInJoints> water_sum{
     "WaterInJoints",
     "All the water in the joints of a model.",
     {{integer("points").doc("of joints, under pressure"), &WaterInJoints::points},
-     {number("area").unit("m2"), &WaterInJoints::area},
-     {number("largest").unit("Pa").doc("pressure"), &WaterInJoints::largest},
-     {number("force").unit("N").doc("sum of pressure times area"), &WaterInJoints::force}}};
+     {number("area", "m2"), &WaterInJoints::area},
+     {number("largest", "Pa").doc("pressure"), &WaterInJoints::largest},
+     {number("force", "N").doc("sum of pressure times area"), &WaterInJoints::force}}};
 
 Value water(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("water");
@@ -89,7 +89,7 @@ void bind_water(Module& m) {
            "closed, and the joint's law bears the rest, the effective stress. It is taken at the undeformed "
            "places, once, and stays until it is set again; call it between stages to raise or lower the "
            "water.",
-           {number("level").unit("m").doc("z of a level water table: weight times the depth below it"),
+           {number("level", "m").doc("z of a level water table: weight times the depth below it"),
             object("water_table", "WaterTable")
                 .doc("instead: one that is not level; weight times the vertical depth below it"),
             number_or_function("pressure", "(x: number, y: number, z: number): number")

@@ -37,35 +37,34 @@ Field direction_field() {
   return vec3("direction").standard().doc("of travel, horizontal");
 }
 Field level_field() {
-  return number("level").standard().unit("m").doc("z of still water");
+  return number("level", "m").standard().doc("z of still water");
 }
 Field depth_field() {
-  return number("depth").above(0).unit("m").required().doc("of still water");
+  return number("depth", "m").above(0).required().doc("of still water");
 }
 
 const Record<WaveGiven> wave_given{
     {{choice("theory", {"stream_function", "stokes", "airy"}).standard(), &WaveGiven::theory},
-     {number("height").above(0).unit("m").required().doc("crest over trough"), &WaveGiven::height},
-     {number("period").above(0).unit("s").doc("give it or length"), &WaveGiven::period},
-     {number("length").above(0).unit("m"), &WaveGiven::length},
+     {number("height", "m").above(0).required().doc("crest over trough"), &WaveGiven::height},
+     {number("period", "s").above(0).doc("give it or length"), &WaveGiven::period},
+     {number("length", "m").above(0), &WaveGiven::length},
      {depth_field(), &WaveGiven::depth},
      {level_field(), &WaveGiven::level},
      {direction_field(), &WaveGiven::direction},
-     {vec3("crest_at").standard().unit("m").doc("where a crest stands at time 0"), &WaveGiven::crest_at},
-     {number("current").standard().unit("m/s").doc("along the direction, mean under water"),
-      &WaveGiven::current},
+     {vec3("crest_at", "m").standard().doc("where a crest stands at time 0"), &WaveGiven::crest_at},
+     {number("current", "m/s").standard().doc("along the direction, mean under water"), &WaveGiven::current},
      {integer("order").within(3, 50).standard().doc("of the stream function"), &WaveGiven::order},
      {density_of_water(), &WaveGiven::density}}};
 
 const Record<SeaGiven> sea_given{
-    {{number("significant_height").above(0).unit("m").required(), &SeaGiven::significant_height},
-     {number("peak_period").above(0).unit("s").required(), &SeaGiven::peak_period},
+    {{number("significant_height", "m").above(0).required(), &SeaGiven::significant_height},
+     {number("peak_period", "s").above(0).required(), &SeaGiven::peak_period},
      {depth_field(), &SeaGiven::depth},
      {level_field(), &SeaGiven::level},
      {number("peak_enhancement").within(1, 20).standard().doc("gamma; 1: Pierson and Moskowitz"),
       &SeaGiven::peak_enhancement},
      {direction_field(), &SeaGiven::direction},
-     {vec3("origin").standard().unit("m"), &SeaGiven::origin},
+     {vec3("origin", "m").standard(), &SeaGiven::origin},
      {integer("components").within(10, 10000).standard(), &SeaGiven::components},
      {integer("seed").at_least(0).standard(), &SeaGiven::seed},
      {density_of_water(), &SeaGiven::density}}};
@@ -79,18 +78,18 @@ const Record<SlopeGiven> slope_given{
           .required()
           .doc("that enter over the first point: waves of the same level, or the height over still water "
                "(m)")},
-     {number("duration").above(0).unit("s").required().doc("a run may not go on beyond it"),
+     {number("duration", "s").above(0).required().doc("a run may not go on beyond it"),
       &SlopeGiven::duration},
      {level_field(), &SlopeGiven::level},
-     {number("cell").above(0).unit("m").doc("a 300th of the bed when left out")},
-     {number("ramp").at_least(0).standard(0.0).unit("s").doc("over which the waves grow from nothing")},
+     {number("cell", "m").above(0).doc("a 300th of the bed when left out")},
+     {number("ramp", "s").at_least(0).standard(0.0).doc("over which the waves grow from nothing")},
      {number("friction")
           .within(0, 10)
           .standard()
           .doc("f of the bed's resistance rho f u |u|: smooth 0.005, armour 0.02 to 0.1"),
       &SlopeGiven::friction},
      {direction_field(), &SlopeGiven::direction},
-     {vec3("origin").standard().unit("m"), &SlopeGiven::origin},
+     {vec3("origin", "m").standard(), &SlopeGiven::origin},
      {density_of_water(), &SlopeGiven::density}}};
 
 const Record<WaterArrays> water_arrays{
@@ -107,14 +106,15 @@ const Record<WaterArrays> water_arrays{
       &WaterArrays::pressure_factor},
      {text("fraction").doc("name of the array of the water fraction, 0 to 1, such as \"alpha.water\""),
       &WaterArrays::fraction},
-     {number("level").unit("m").doc(
-         "z of the free surface where there is no fraction; left out: water everywhere")},
-     {number("cell").above(0).unit("m").doc(
-          "of the grid; left out: that of a .vti, else the mean size of the cells"),
+     {number("level", "m")
+          .doc("z of the free surface where there is no fraction; left out: water everywhere")},
+     {number("cell", "m")
+          .above(0)
+          .doc("of the grid; left out: that of a .vti, else the mean size of the cells"),
       &WaterArrays::cell},
      {choice("same_along", {"x", "y", "z"})
           .doc("the water is the same all along this axis, as in a flume of one cell")},
-     {vec3("shift").standard().unit("m").doc("is added to the coordinates"), &WaterArrays::shift}}};
+     {vec3("shift", "m").standard().doc("is added to the coordinates"), &WaterArrays::shift}}};
 
 Value uniform(Session&, Object*, const Arguments& a) {
   UniformWater water;
@@ -249,24 +249,22 @@ Value file_water(Session& session, Object*, const Arguments& a) {
   record.density = a.number("density");
   const auto made = std::make_shared<RecordedWater>(std::move(record));
   const geom::Box box = made->box();
-  std::string line = "cdem.water.file: " + std::to_string(files.paths.size()) +
-                     (files.paths.size() == 1 ? " file" : " files");
+  std::string line = "cdem.water.file: " + geom::counted(files.paths.size(), "file");
   if (files.times.size() > 1)
     line += " from " + number_text(files.times.front()) + " to " + number_text(files.times.back()) + " s";
   for (int axis = 0; axis < 3; ++axis)
     line += std::string(", ") + "xyz"[axis] + " " + range_text(box.min[axis], box.max[axis]);
   session.message(line + " m; a run that leaves these ends with an error");
-  return holding(made, "water of " + std::to_string(files.paths.size()) +
-                           (files.paths.size() == 1 ? " file" : " files"));
+  return holding(made, "water of " + geom::counted(files.paths.size(), "file"));
 }
 
 const Record<WaterPoint> water_point{
     "WaterPoint",
     "Water at a place and time.",
-    {{vec3("velocity").unit("m/s"), &WaterPoint::velocity},
-     {vec3("acceleration").unit("m/s2").doc("of the particles"), &WaterPoint::acceleration},
-     {number("pressure").unit("Pa").doc("above that of the air"), &WaterPoint::pressure},
-     {number("surface").unit("m").doc("z of the free surface; nil where it is dry or water is everywhere"),
+    {{vec3("velocity", "m/s"), &WaterPoint::velocity},
+     {vec3("acceleration", "m/s2").doc("of the particles"), &WaterPoint::acceleration},
+     {number("pressure", "Pa").doc("above that of the air"), &WaterPoint::pressure},
+     {number("surface", "m").doc("z of the free surface; nil where it is dry or water is everywhere"),
       [](const WaterPoint& point) { return if_finite(point.surface); }}}};
 
 Table point_at(Session&, WaterObject& water, const Arguments& a) {
@@ -285,8 +283,7 @@ void bind_water_class(Module& m) {
       [](const WaterObject& self) { return self.slope ? Value(self.slope->run_down()) : Value(); });
   water
       .add("at", "Velocity, acceleration, pressure and surface at a place and time.",
-           {vec3("place").unit("m").required(), number("time").unit("s").standard(0.0)}, point_at,
-           "cdem.WaterPoint")
+           {vec3("place", "m").required(), number("time", "s").standard(0.0)}, point_at, "cdem.WaterPoint")
       .ordered();
   water.text = [](const Object& self) {
     return "cdem.Water: " + static_cast<const WaterObject&>(self).words;
@@ -300,8 +297,9 @@ void bind_water_fields(Module& m) {
   bind_water_class(m);
   m.add("water.uniform", "Water of one velocity everywhere below its level.",
         {vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
-         number("level").unit("m").doc("z of the free surface, below which the pressure is hydrostatic; left "
-                                       "out: water everywhere, no buoyancy"),
+         number("level", "m")
+             .doc("z of the free surface, below which the pressure is hydrostatic; left "
+                  "out: water everywhere, no buoyancy"),
          density_of_water()},
         uniform, "cdem.Water");
   const std::string of_vector = "(x: number, y: number, z: number, time: number): number[]",
@@ -343,9 +341,8 @@ void bind_water_fields(Module& m) {
           list("files", text_type()).doc("in the order of their times"),
           list("times", number_type(), 0).unit("s").doc("of the files")} +
           water_arrays.fields() +
-          std::vector<Field>{number("time_shift")
+          std::vector<Field>{number("time_shift", "s")
                                  .standard(0.0)
-                                 .unit("s")
                                  .doc("is added to the times, such as the model's time at the start"),
                              density_of_water()},
       file_water, "cdem.Water");

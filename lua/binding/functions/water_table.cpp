@@ -131,9 +131,9 @@ void bind_water_table(Module& m) {
         "A water table that is not level, for model:water and model:traction: a plane, a profile along a "
         "direction, or a surface. Pressure is weight times the vertical depth below it (docs/theory.md, "
         "\"Water\").",
-        {vec3("point").unit("m").doc("of a plane"),
-         number("dip").from(0, 90).unit("deg").doc("of a plane, below the horizontal"),
-         number("dip_direction").within(0, 360).unit("deg").doc("clockwise from +y (north)"),
+        {vec3("point", "m").doc("of a plane"),
+         number("dip", "deg").from(0, 90).doc("of a plane, below the horizontal"),
+         number("dip_direction", "deg").within(0, 360).doc("clockwise from +y (north)"),
          list("profile", tuple_type({number_type(), number_type()}), 2)
              .doc("instead: rows {distance, z} (m); straight between them, level beyond, the same across"),
          list("points", vec3_type(), 3)
@@ -142,16 +142,15 @@ void bind_water_table(Module& m) {
                   "between them"),
          text("file").doc(
              "instead: a table (docs/output-files.md) with columns distance and z, or x, y and z (m)"),
-         vec3("origin").unit("m").doc("where the distance of a profile is 0; {0, 0, 0} when left out"),
+         vec3("origin", "m").doc("where the distance of a profile is 0; {0, 0, 0} when left out"),
          vec3("direction").doc("of a profile, horizontal; {1, 0, 0} when left out"),
          object("surface", "Surface")
              .doc("instead: open, once over each place; larger than the model in plan")},
         water_table, "cdem.WaterTable");
   Class object{"WaterTable", "A water table, made by cdem.water_table."};
   object
-      .add("height", "Its z over a place.",
-           {number("x").unit("m").required(), number("y").unit("m").required()}, height, "number?",
-           "m; nil beyond the end of a surface")
+      .add("height", "Its z over a place.", {number("x", "m").required(), number("y", "m").required()},
+           height, "number?", "m; nil beyond the end of a surface")
       .ordered();
   object.text = [](const Object& self) {
     return "cdem.WaterTable: " + static_cast<const WaterTableObject&>(self).words;

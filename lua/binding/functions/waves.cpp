@@ -225,9 +225,8 @@ void bind_waves(Module& m) {
         choice("outside", {"hold", "zero"})
             .standard("hold")
             .doc("before the first and after the last time: those values, or 0"),
-        number("peak").doc("largest magnitude"), number("duration").unit("s"), text("unit"),
-        number("end_velocity").unit("m/s").doc("of an integrated acceleration"),
-        number("end_displacement").unit("m"),
+        number("peak").doc("largest magnitude"), number("duration", "s"), text("unit"),
+        number("end_velocity", "m/s").doc("of an integrated acceleration"), number("end_displacement", "m"),
         list("baseline", number_type(), 2).doc("{a0, a1}: a0 + a1 t has been taken off, m/s2 and m/s3")}});
   m.add("record",
         "Reads a record over time from two columns of a table as spreadsheets write it, or from a file .AT2 "
@@ -248,9 +247,8 @@ void bind_waves(Module& m) {
              .standard("none")
              .doc("straight: takes the line a0 + a1 t off the acceleration that brings the last velocity and "
                   "the last displacement to zero"),
-         number("longest_step")
+         number("longest_step", "s")
              .above(0)
-             .unit("s")
              .doc("two samples further apart are a gap; 2.5 times the median step when left out")},
         read_record, "cdem.Record")
       .replayed(Replay::recorded);
@@ -261,9 +259,9 @@ void bind_waves(Module& m) {
            "Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave "
            "may enter through them. It takes the place of a fix of the same place, whose reactions stay as "
            "loads. For real-time stepping.",
-           {on, vec3("velocity").unit("m/s").doc("of the particles in the entering wave alone"),
-            vec3("stress").unit("Pa").doc(
-                "traction of the entering wave alone on these faces; the boundary adds 2 of it"),
+           {on, vec3("velocity", "m/s").doc("of the particles in the entering wave alone"),
+            vec3("stress", "Pa")
+                .doc("traction of the entering wave alone on these faces; the boundary adds 2 of it"),
             amplitude_field(), since_field()},
            quiet)
       .replayed(Replay::again);

@@ -1,6 +1,7 @@
 // The reference page of the script language (docs/script-reference.md).
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/module/topics.hpp"
+#include "lua/binding/text/markdown.hpp"
 #include "lua/binding/text/nearest.hpp"
 
 #include "libgeom/core/error.hpp"
@@ -12,17 +13,6 @@
 namespace cdem::script {
 
 namespace {
-
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|')
-      out += "\\|";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string type_text(const Type& type) {
   switch (type.kind) {

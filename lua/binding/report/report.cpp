@@ -2,6 +2,7 @@
 
 #include "lua/binding/schema/errors.hpp"
 #include "lua/binding/text/json.hpp"
+#include "lua/binding/text/markdown.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,15 +66,8 @@ std::string shown(const Value& value) {
   return describe(value);
 }
 
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '|')
-      out += "\\|";
-    else
-      out += c == '\n' ? ' ' : c;
-  }
-  return out.empty() ? "-" : out;
+std::string cell_or_dash(const std::string& text) {
+  return text.empty() ? "-" : cell(text);
 }
 
 std::string difference(const Figure& f) {
@@ -166,17 +160,17 @@ std::string Report::markdown() const {
   out += "|---|---:|---|---:|---:|---|---:|---|---|\n";
   for (const Figure& f : figures) {
     const auto judged = f.within();
-    out += "| " + cell(f.name) + " | " + cell(shown(f.value)) + " | " + cell(f.unit) + " | " +
-           cell(shown(f.reference)) + " | " + difference(f) + " | " + cell(f.kind) + " | " +
-           tolerance_text(f) + " | " + (judged ? (*judged ? "yes" : "**no**") : "-") + " | " +
-           cell(f.source) + " |\n";
+    out += "| " + cell_or_dash(f.name) + " | " + cell_or_dash(shown(f.value)) + " | " + cell_or_dash(f.unit) +
+           " | " + cell_or_dash(shown(f.reference)) + " | " + difference(f) + " | " + cell_or_dash(f.kind) +
+           " | " + tolerance_text(f) + " | " + (judged ? (*judged ? "yes" : "**no**") : "-") + " | " +
+           cell_or_dash(f.source) + " |\n";
   }
   if (!relaxations.empty())
     out += "\n| stage | model | trial | verdict | steps | residual |\n|---:|---:|---|---|---:|---:|\n";
   for (const Table& row : relaxations) {
     const auto entry = [&](const char* name) {
       const auto found = row.named.find(name);
-      return cell(shown(found == row.named.end() ? Value() : found->second));
+      return cell_or_dash(shown(found == row.named.end() ? Value() : found->second));
     };
     out += "| " + entry("stage") + " | " + entry("model") + " | " + entry("trial") + " | " +
            entry("verdict") + " | " + entry("steps") + " | " + entry("residual") + " |\n";
@@ -184,7 +178,7 @@ std::string Report::markdown() const {
   if (!warnings.empty())
     out += "\nWarnings of the run:\n\n";
   for (const std::string& warning : warnings)
-    out += "- " + cell(warning) + "\n";
+    out += "- " + cell_or_dash(warning) + "\n";
   return out;
 }
 

@@ -28,10 +28,11 @@ Value read_arguments(lua_State* L, const Bound& bound, int first) {
   Values given;
   for (int i = first; i <= lua_gettop(L); ++i)
     given.push_back(to_value(L, i));
-  if (function.in_order) {
+  const bool bare = function.fields.empty(); // counts() may also be written counts{}
+  if (function.in_order || bare) {
     // max("displacement.x", "y+") may also be written max{ field = "displacement.x", on = "y+" }.
     const Table* named = given.size() == 1 ? given[0].table() : nullptr;
-    if (function.named_too && named && named->items.empty() && !named->named.empty())
+    if (named && named->items.empty() && (bare || (function.named_too && !named->named.empty())))
       return given[0];
     return named_in_order(given, function.fields);
   }

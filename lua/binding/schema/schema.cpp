@@ -2,6 +2,7 @@
 
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -30,16 +31,36 @@ std::string Range::text() const {
   return {};
 }
 
+namespace {
+
+// Of kinds that have one name whatever they hold: as LuaCATS writes it, and as a message says it.
+struct KindName {
+  Kind kind;
+  const char *lua, *words;
+};
+constexpr KindName kind_names[] = {
+    {Kind::flag, "boolean", "true or false"},
+    {Kind::integer, "integer", "a whole number"},
+    {Kind::number, "number", "a number"},
+    {Kind::text, "string", "a string"},
+    {Kind::place, "cdem.Place",
+     "a side (\"x-\" .. \"z+\"), a name, a cdem.select.* value, a function(x, y, "
+     "z), or a list of these"},
+    {Kind::scalar, "string|number|boolean", "a string, a number or a boolean"},
+    {Kind::plain, "any", "a plain value"}};
+
+const KindName* name_of(Kind kind) {
+  const auto found = std::find_if(std::begin(kind_names), std::end(kind_names),
+                                  [&](const KindName& name) { return name.kind == kind; });
+  return found == std::end(kind_names) ? nullptr : found;
+}
+
+} // namespace
+
 std::string Type::lua_type() const {
+  if (const KindName* one = name_of(kind))
+    return one->lua;
   switch (kind) {
-  case Kind::flag:
-    return "boolean";
-  case Kind::integer:
-    return "integer";
-  case Kind::number:
-    return "number";
-  case Kind::text:
-    return "string";
   case Kind::vec3:
     return "number[]";
   case Kind::list: {
@@ -59,12 +80,6 @@ std::string Type::lua_type() const {
            name;
   case Kind::object:
     return "cdem." + with_or(name, "|cdem.");
-  case Kind::place:
-    return "cdem.Place";
-  case Kind::scalar:
-    return "string|number|boolean";
-  case Kind::plain:
-    return "any";
   case Kind::choice: {
     std::string out;
     for (const std::string& c : choices)
@@ -83,20 +98,15 @@ std::string Type::lua_type() const {
       out += (out.size() > 1 ? ", " : "") + f.name + (f.must ? ": " : "?: ") + f.type.lua_type();
     return out + "}";
   }
+  default:
+    return "any";
   }
-  return "any";
 }
 
 std::string Type::words() const {
+  if (const KindName* one = name_of(kind))
+    return one->words;
   switch (kind) {
-  case Kind::flag:
-    return "true or false";
-  case Kind::integer:
-    return "a whole number";
-  case Kind::number:
-    return "a number";
-  case Kind::text:
-    return "a string";
   case Kind::vec3:
     return whole ? "three whole numbers {x, y, z}" : "three numbers {x, y, z}";
   case Kind::list:
@@ -120,21 +130,15 @@ std::string Type::words() const {
                        : "a function";
   case Kind::object:
     return "a cdem." + with_or(name, " or a cdem.");
-  case Kind::place:
-    return "a side (\"x-\" .. \"z+\"), a name, a cdem.select.* value, a function(x, y, z), or a list of "
-           "these";
-  case Kind::scalar:
-    return "a string, a number or a boolean";
-  case Kind::plain:
-    return "a plain value";
   case Kind::choice: {
     std::string out;
     for (const std::string& c : choices)
       out += (out.empty() ? "\"" : ", \"") + c + "\"";
     return choices.size() == 1 ? out : "one of " + out;
   }
+  default:
+    return "a value";
   }
-  return "a value";
 }
 
 namespace {
@@ -208,8 +212,8 @@ Field& Field::doubted(double above, double below, std::string hint) {
   type.doubts.push_back({above, below, std::move(hint)});
   return *this;
 }
-Field& Field::formerly(std::string name) {
-  old_name = std::move(name);
+Field& Field::formerly(std::string given) {
+  old_name = std::move(given);
   return *this;
 }
 
@@ -230,16 +234,16 @@ Field flag(std::string name) {
 Field integer(std::string name) {
   return with(std::move(name), of(Kind::integer));
 }
-Field number(std::string name) {
-  return with(std::move(name), of(Kind::number));
+Field number(std::string name, std::string unit) {
+  return with(std::move(name), of(Kind::number)).unit(std::move(unit));
 }
 Field text(std::string name) {
   return with(std::move(name), of(Kind::text));
 }
-Field vec3(std::string name) {
+Field vec3(std::string name, std::string unit) {
   Field field = with(std::move(name), of(Kind::vec3));
   field.type.largest = largest_quantity;
-  return field;
+  return field.unit(std::move(unit));
 }
 Field place(std::string name) {
   return with(std::move(name), of(Kind::place));

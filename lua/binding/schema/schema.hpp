@@ -107,10 +107,10 @@ struct Field {
 // Fields by type.
 Field flag(std::string name);
 Field integer(std::string name);
-Field number(std::string name);
+Field number(std::string name, std::string unit = "");
 Field text(std::string name);
 Field choice(std::string name, std::vector<std::string> choices);
-Field vec3(std::string name);
+Field vec3(std::string name, std::string unit = "");
 Field ivec3(std::string name);
 Field box(std::string name); // { min, max }, m
 Field object(std::string name, std::string class_name);

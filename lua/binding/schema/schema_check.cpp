@@ -175,9 +175,7 @@ Value checked_list(const Value& given, const Type& type, const std::string& path
     named = checked_record(Value(std::move(beside)), type.fields, path);
   }
   if (table->items.size() < type.min_items)
-    throw InputError(path, describe(given),
-                     "a list of at least " + std::to_string(type.min_items) +
-                         (type.min_items == 1 ? " item" : " items"));
+    throw InputError(path, describe(given), "a list of at least " + geom::counted(type.min_items, "item"));
   Values out;
   out.reserve(table->items.size());
   for (std::size_t i = 0; i < table->items.size(); ++i)
@@ -348,8 +346,8 @@ Value named_in_order(const Values& given, const std::vector<Field>& fields) {
     for (std::size_t i = fields.size(); i < given.size(); ++i)
       extra = extra || !given[i].is_nil();
     if (extra)
-      throw InputError(std::to_string(given.size()) + (given.size() == 1 ? " argument" : " arguments") +
-                       ": takes " + (fields.empty() ? "none" : "(" + joined(names_of(fields)) + ")"));
+      throw InputError(geom::counted(given.size(), "argument") + ": takes " +
+                       (fields.empty() ? "none" : "(" + joined(names_of(fields)) + ")"));
   }
   Table named;
   for (std::size_t i = 0; i < std::min(given.size(), fields.size()); ++i)

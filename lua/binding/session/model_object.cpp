@@ -12,6 +12,13 @@
 
 namespace cdem::script {
 
+std::string column_name(const Arguments& a, const std::string& what) {
+  const std::string& name = a.text("name");
+  if (name.empty() || name.find_first_of(",\n\"") != std::string::npos)
+    throw geom::InputError("name", describe(a.value("name")), "a word: " + what + " of history.csv");
+  return name;
+}
+
 std::string ModelObject::title(const Session& session) const {
   std::string text = session.report.case_name;
   for (auto it = session.stages.rbegin(); it != session.stages.rend(); ++it)

@@ -49,6 +49,8 @@ struct ModelObject final : Object {
 
 // The history as columns by name, in the order of the file.
 std::vector<std::pair<std::string, std::vector<double>>> history_columns(const Simulation&);
+// The name of a new history; what: what becomes of it.
+std::string column_name(const Arguments&, const std::string& what = "it begins the names of columns");
 std::string csv(const std::vector<std::pair<std::string, std::vector<double>>>& columns);
 
 } // namespace cdem::script
