@@ -119,42 +119,6 @@ std::vector<InnerFace> inner_faces(const TetMesh& mesh) {
   return out;
 }
 
-std::vector<FeatureEdge> feature_edges(const TetMesh& mesh, const std::vector<OuterFace>& faces,
-                                       double min_angle) {
-  struct Entry {
-    int other; // the higher node
-    int face;
-  };
-  auto edges = by_node<Entry>(mesh.nodes.size(), [&](auto add) {
-    for (std::size_t f = 0; f < faces.size(); ++f)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const int a = faces[f].nodes[i], b = faces[f].nodes[(i + 1) % 3];
-        add(std::min(a, b), Entry{std::max(a, b), static_cast<int>(f)});
-      }
-  });
-  std::vector<FeatureEdge> out;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    const std::size_t end = edges.start[n + 1];
-    std::sort(edges.entries.begin() + static_cast<std::ptrdiff_t>(edges.start[n]),
-              edges.entries.begin() + static_cast<std::ptrdiff_t>(end), [](const Entry& a, const Entry& b) {
-                return a.other != b.other ? a.other < b.other : a.face < b.face;
-              });
-    for (std::size_t i = edges.start[n]; i < end;) {
-      double angle = 0;
-      std::size_t j = i + 1;
-      for (; j < end && edges.entries[j].other == edges.entries[i].other; ++j) {
-        const Vec3 a = area_vector(mesh, faces[edges.entries[i].face].nodes);
-        const Vec3 b = area_vector(mesh, faces[edges.entries[j].face].nodes);
-        angle = std::max(angle, portable::atan2(a.cross(b).norm(), a.dot(b)));
-      }
-      if (angle > min_angle)
-        out.push_back({{static_cast<int>(n), edges.entries[i].other}, angle});
-      i = j;
-    }
-  }
-  return out;
-}
-
 std::vector<int> faces_on_plane(const TetMesh& mesh, const std::vector<OuterFace>& faces, const Plane& plane,
                                 double tolerance) {
   return select(faces, [&](const OuterFace& face) {

@@ -31,14 +31,6 @@ struct InnerFace {
 };
 std::vector<InnerFace> inner_faces(const TetMesh&); // by first tet, then its face
 
-// An edge where the outside turns.
-struct FeatureEdge {
-  std::array<int, 2> nodes{}; // ascending
-  double angle = 0;           // between the outward normals of the two outer faces, radians, 0 .. pi
-};
-// Those of more than min_angle, by nodes; where more than two outer faces meet the largest angle counts.
-std::vector<FeatureEdge> feature_edges(const TetMesh&, const std::vector<OuterFace>&, double min_angle);
-
 // Which outer faces. Indices into `faces`, ascending; empty when there are none.
 std::vector<int> faces_on_plane(const TetMesh&, const std::vector<OuterFace>& faces, const Plane&,
                                 double tolerance); // m, all three nodes

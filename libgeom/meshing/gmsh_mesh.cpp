@@ -13,7 +13,6 @@
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <unordered_map>
 
 namespace geom {
 namespace {
@@ -37,17 +36,10 @@ std::pair<int, std::string> group_of(int volume) {
 // The tets of gmsh's model, each volume a region, and the nodes they use in the order they are met.
 Collected collect(const std::string& what) {
   constexpr int linear_tet = 4; // gmsh's number of the element
-  std::vector<std::size_t> tags;
-  std::vector<double> coordinates, ignored;
-  gmsh::model::mesh::getNodes(tags, coordinates, ignored, -1, -1, false, false);
-  std::unordered_map<std::size_t, std::size_t> place; // by tag
-  for (std::size_t i = 0; i < tags.size(); ++i)
-    place[tags[i]] = i;
-
+  MetNodes nodes;
   Collected all;
   TetMesh& mesh = all.mesh;
   CellLabels physical{"physical", {}, {}}, numbers{"volumes", {}, {}};
-  std::unordered_map<std::size_t, int> node_of; // by tag
   Pieces volumes;
   gmsh::model::getEntities(volumes, 3);
   int region = 0;
@@ -64,17 +56,8 @@ Collected collect(const std::string& what) {
                          "tetrahedra");
       for (std::size_t t = 0; t < elements[k].size(); ++t) {
         Tet tet;
-        for (std::size_t c = 0; c < 4; ++c) {
-          const std::size_t corner = corners[k][4 * t + c];
-          const auto at = place.find(corner);
-          if (at == place.end())
-            throw InputError(what + ": an element names node " + std::to_string(corner) +
-                             ", which is not there");
-          const auto [node, added] = node_of.try_emplace(corner, static_cast<int>(mesh.nodes.size()));
-          if (added)
-            mesh.nodes.emplace_back(Eigen::Map<const Vec3>(&coordinates[3 * at->second]));
-          tet[c] = node->second;
-        }
+        for (std::size_t c = 0; c < 4; ++c)
+          tet[c] = nodes.number(corners[k][4 * t + c], what);
         mesh.tets.push_back(tet);
         mesh.region.push_back(region);
         physical.values.push_back(group);
@@ -85,6 +68,7 @@ Collected collect(const std::string& what) {
       throw InputError(what + ": volume " + std::to_string(region + 1) + " has no tetrahedra");
     ++region;
   }
+  mesh.nodes = std::move(nodes.points);
   all.labels = {std::move(physical), std::move(numbers)};
   return all;
 }

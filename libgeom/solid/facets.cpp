@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace geom {
 namespace {
@@ -25,29 +24,19 @@ double chords(double radius, double tolerance) {
 // Inside a session: the faces that bound the model's volumes from outside, with their triangles.
 Surface triangles_of(const Pieces& faces) {
   constexpr int linear_triangle = 2; // gmsh's number of the element
-  std::vector<std::size_t> tags;
-  std::vector<double> coordinates, ignored;
-  gmsh::model::mesh::getNodes(tags, coordinates, ignored, -1, -1, false, false);
-  std::unordered_map<std::size_t, std::size_t> place; // by tag
-  for (std::size_t i = 0; i < tags.size(); ++i)
-    place[tags[i]] = i;
+  MetNodes nodes;
   Surface surface;
-  std::unordered_map<std::size_t, int> node_of;
   for (const auto& [dim, tag] : faces) {
     std::vector<std::size_t> elements, corners;
     gmsh::model::mesh::getElementsByType(linear_triangle, elements, corners, tag);
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
       Triangle t{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto [node, added] =
-            node_of.try_emplace(corners[i + c], static_cast<int>(surface.points.size()));
-        if (added)
-          surface.points.emplace_back(Eigen::Map<const Vec3>(&coordinates[3 * place.at(corners[i + c])]));
-        t[c] = node->second;
-      }
+      for (std::size_t c = 0; c < 3; ++c)
+        t[c] = nodes.number(corners[i + c], "faces of a solid");
       surface.triangles.push_back(t);
     }
   }
+  surface.points = std::move(nodes.points);
   return surface;
 }
 

@@ -145,6 +145,25 @@ Pieces load(const Solid& solid) {
   return pieces;
 }
 
+MetNodes::MetNodes() {
+  std::vector<std::size_t> tags;
+  std::vector<double> coordinates, ignored;
+  gmsh::model::mesh::getNodes(tags, coordinates, ignored, -1, -1, false, false);
+  for (std::size_t i = 0; i < tags.size(); ++i)
+    place_.emplace(tags[i], Eigen::Map<const Vec3>(&coordinates[3 * i]));
+}
+
+int MetNodes::number(std::size_t tag, const std::string& what) {
+  const auto [node, added] = number_.try_emplace(tag, static_cast<int>(points.size()));
+  if (added) {
+    const auto at = place_.find(tag);
+    if (at == place_.end())
+      throw InputError(what + ": an element names node " + std::to_string(tag) + ", which is not there");
+    points.push_back(at->second);
+  }
+  return node->second;
+}
+
 // The model's volumes as a value.
 Solid store(const std::string& what) {
   gmsh::model::occ::synchronize();

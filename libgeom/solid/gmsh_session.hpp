@@ -14,6 +14,7 @@
 #include "libgeom/solid/solid.hpp"
 
 #include <stdexcept>
+#include <unordered_map>
 
 namespace geom {
 
@@ -112,6 +113,17 @@ auto with_copy(const std::string& user_file, const std::string& ending, Body bod
 // Inside a session only. `what` begins the messages.
 Pieces load(const Solid&);
 Pieces load_all(const std::vector<Solid>&, std::size_t from);
+// The nodes of the model's mesh, numbered in the order they are met.
+class MetNodes {
+public:
+  MetNodes();
+  int number(std::size_t tag, const std::string& what); // throws InputError when there is no such node
+  std::vector<Vec3> points;
+
+private:
+  std::unordered_map<std::size_t, Vec3> place_; // by tag
+  std::unordered_map<std::size_t, int> number_;
+};
 // The tets of the mesh of the model, each volume a region, and the nodes they use in the order they are met.
 TetMesh tets_of_volumes(const std::string& what);
 Solid store(const std::string& what); // the model's volumes; throws InputError when there are none

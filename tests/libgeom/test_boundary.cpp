@@ -87,28 +87,6 @@ TEST_CASE("lists of faces are in the order of tets and their faces") {
   }));
 }
 
-TEST_CASE("a box has feature edges along its twelve edges, of a right angle each") {
-  const auto edges = feature_edges(box, outer_faces(box), 0.1);
-  CHECK(edges.size() == 4 * (3 + 4 + 5));
-  double length = 0;
-  for (const FeatureEdge& e : edges) {
-    CHECK(e.nodes[0] < e.nodes[1]);
-    CHECK(e.angle == Approx(M_PI / 2));
-    length += (box.nodes[e.nodes[0]] - box.nodes[e.nodes[1]]).norm();
-  }
-  CHECK(length == Approx(4 * (1 + 2 + 3)));
-  CHECK(feature_edges(box, outer_faces(box), 0.51 * M_PI).empty());
-}
-
-TEST_CASE("a regular tet turns by pi less its dihedral angle on six edges") {
-  const TetMesh one{{{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}}, {{0, 1, 2, 3}}, {0}};
-  REQUIRE(volume(one) > 0);
-  const auto edges = feature_edges(one, outer_faces(one), 0);
-  CHECK(edges.size() == 6);
-  for (const FeatureEdge& e : edges)
-    CHECK(e.angle == Approx(M_PI - std::acos(1. / 3)));
-}
-
 TEST_CASE("three tets on one face are refused with their numbers") {
   const std::vector<Tet> tets{{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 2, 1, 5}};
   CHECK_THROWS_WITH(face_neighbours(tets, 6), "tetrahedra 1, 2 and 3 share one face; at most two may");
