@@ -3,6 +3,7 @@
 #include "libcdem/contact/initial/separate.hpp"
 #include "libcdem/model/build/build_model.hpp"
 #include "libcdem/simulation_checks.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/hilbert.hpp"
 #include "libgeom/core/portable.hpp"
@@ -172,8 +173,7 @@ private:
 void require_zones(const BodySpec& body) {
   if (body.zone_size == 0)
     return;
-  if (!(body.zone_size > 0) || !std::isfinite(body.zone_size))
-    throw geom::InputError("zone_size", number(body.zone_size), "a finite number > 0 m");
+  geom::require_above("zone_size", body.zone_size, 0, "m");
   if (!body.meshes.empty())
     throw geom::InputError("zone_size", "of a mesh", "of an assembly of convex blocks",
                            "a mesh has the size that it was made with");

@@ -20,6 +20,7 @@
 #include "libcdem/simulation_checks.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
+#include "libgeom/core/check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -113,12 +114,9 @@ bool meets_earlier(std::vector<int> (*chosen)(const Model&, const Selection&), c
 bool Simulation::traction(const Traction& traction) {
   require_finite("stress", traction.stress);
   if (traction.pressure && traction.pressure->level) {
-    if (!std::isfinite(*traction.pressure->level))
-      throw geom::InputError("level", fmt::format("{:g}", *traction.pressure->level),
-                             "a finite height z (m)");
-    if (!(std::isfinite(traction.pressure->weight) && traction.pressure->weight > 0))
-      throw geom::InputError("weight", fmt::format("{:g}", traction.pressure->weight),
-                             "a finite number > 0 N/m3", "water has 9810");
+    geom::require(std::isfinite(*traction.pressure->level), "level", *traction.pressure->level,
+                  "a finite height z (m)");
+    geom::require_above("weight", traction.pressure->weight, 0, "N/m3", "water has 9810");
   }
   if (traction.pressure)
     impl_->warn_of_distant_table(traction.pressure->table);
@@ -136,8 +134,7 @@ bool Simulation::force(const PointForce& force) {
 
 void Simulation::gravity(const Gravity& gravity) {
   require_finite("vector", gravity.acceleration);
-  if (!std::isfinite(gravity.water_density) || gravity.water_density < 0)
-    throw geom::InputError("water_density", number(gravity.water_density), "a finite number >= 0 kg/m3");
+  geom::require_at_least("water_density", gravity.water_density, 0, "kg/m3");
   if (gravity.turning && gravity.amplitude)
     throw geom::InputError(
         "amplitude: goes with a constant vector; let the function that turns it scale it too");
@@ -172,11 +169,9 @@ bool Simulation::flow(const Flow& flow) {
   const ResolvedConditions resolved = resolve(impl_->model, impl_->whole(), changed);
   if (!flow.water && !flow.new_faces &&
       flow_pattern(impl_->model, impl_->whole(), resolved.flows.back()).empty())
-    throw geom::InputError(
-        "direction",
-        fmt::format("({:g}, {:g}, {:g})", flow.direction.x(), flow.direction.y(), flow.direction.z()),
-        "a direction that meets an outer face of the place (" + flow.on.text + ")",
-        "a flow along x+ pushes on the side x-");
+    throw geom::InputError("direction", geom::shown(flow.direction),
+                           "a direction that meets an outer face of the place (" + flow.on.text + ")",
+                           "a flow along x+ pushes on the side x-");
   impl_->conditions = std::move(changed);
   return flows_meet(impl_->model, resolved);
 }
@@ -185,8 +180,7 @@ void Simulation::crack_pressure(const CrackPressure& pressure) {
   if (pressure.volume)
     for (const auto& [field, value] :
          {std::pair{"bulk_modulus", pressure.bulk_modulus}, std::pair{"reservoir", pressure.reservoir}})
-      if (!(value > 0 && std::isfinite(value)))
-        throw geom::InputError(field, number(value), "a finite number > 0", "it goes with volume");
+      geom::require_above(field, value, 0, "", "it goes with volume");
   if (!impl_->replaying)
     require_cracks(impl_->model, pressure.on);
   impl_->add_condition([&](Conditions& c) { c.crack_pressures.push_back(pressure); });

@@ -1,5 +1,6 @@
 #include "libcdem/simulation_checks.hpp"
 
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
@@ -9,13 +10,18 @@
 
 namespace cdem {
 
+using geom::require;
+using geom::require_above;
+using geom::require_at_least;
+using geom::require_in;
+
 std::string number(double x) {
   return fmt::format("{:g}", x);
 }
 
 void require_finite(const char* field, const geom::Vec3& v) {
   if (!v.allFinite())
-    throw geom::InputError(field, fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()), "finite");
+    throw geom::InputError(field, geom::shown(v), "finite");
 }
 
 void require_spring_strength(const Joint& joint, const std::string& between) {
@@ -127,86 +133,73 @@ void validate_meshed(const BodySpec& body) {
 }
 
 void check(const RelaxOptions& o) {
-  if (!(o.residual > 0 && o.residual < 1))
-    throw geom::InputError("residual", number(o.residual), "in (0, 1)", "1e-6 is usual");
-  if (o.max_steps <= 0)
-    throw geom::InputError("max_steps", std::to_string(o.max_steps), "an integer > 0");
+  require_in("residual", o.residual, "(0, 1)", "1e-6 is usual");
+  require(o.max_steps > 0, "max_steps", static_cast<double>(o.max_steps), "an integer > 0");
 }
 
 void check(const MassScaling& s) {
-  if (!(s.step >= 0) || !std::isfinite(s.step))
-    throw geom::InputError("mass_scaling.step", number(s.step), "a finite number > 0 s");
-  if (s.factor != 0 && (!(s.factor >= 1) || !std::isfinite(s.factor)))
-    throw geom::InputError("mass_scaling.factor", number(s.factor), "a finite number >= 1",
-                           "it is the time step over the one that the true masses allow");
+  require(s.step >= 0 && std::isfinite(s.step), "mass_scaling.step", s.step, "a finite number > 0 s");
+  if (s.factor != 0)
+    require_at_least("mass_scaling.factor", s.factor, 1, "",
+                     "it is the time step over the one that the true masses allow");
   if (s.step > 0 && s.factor > 0)
     throw geom::InputError("mass_scaling: give step (s) or factor, not both");
 }
+
+namespace {
+
+// 0: the stable one.
+void check_time_step(double time_step) {
+  require(time_step >= 0 && std::isfinite(time_step), "time_step", time_step, "a finite number > 0 s");
+}
+
+} // namespace
 
 void check(const RunOptions& o) {
   check(o.mass_scaling);
   if (o.mass_scaling.on() && o.time_step > 0)
     throw geom::InputError("mass_scaling: names the time step itself; leave time_step out");
-  const bool by_time = o.duration != 0;
-  if (!std::isfinite(o.duration) || o.duration < 0)
-    throw geom::InputError("duration", number(o.duration), "a finite number > 0 s");
-  if (by_time == (o.steps != 0) || o.steps < 0)
+  require(o.duration >= 0 && std::isfinite(o.duration), "duration", o.duration, "a finite number > 0 s");
+  if ((o.duration != 0) == (o.steps != 0) || o.steps < 0)
     throw geom::InputError("run: give either duration (s) or steps (an integer > 0)");
-  if (!(o.safety > 0 && o.safety <= 1))
-    throw geom::InputError("safety", number(o.safety), "in (0, 1]");
-  if (!(o.time_step >= 0) || !std::isfinite(o.time_step))
-    throw geom::InputError("time_step", number(o.time_step), "a finite number > 0 s");
-  if (!(o.local_damping >= 0 && o.local_damping < 1))
-    throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
+  require_in("safety", o.safety, "(0, 1]");
+  check_time_step(o.time_step);
+  require_in("local_damping", o.local_damping, "[0, 1)");
 }
 
 void check(const SettleOptions& o) {
-  if (o.friction_angle && !(*o.friction_angle >= 0 && *o.friction_angle < M_PI / 2))
-    throw geom::InputError("friction_angle", number(*o.friction_angle), "in [0, pi/2) rad");
-  if (!(o.kinetic_energy_ratio > 0 && o.kinetic_energy_ratio < 1))
-    throw geom::InputError("kinetic_energy_ratio", number(o.kinetic_energy_ratio), "in (0, 1)",
-                           "1e-6 is usual");
-  if (!(o.local_damping >= 0 && o.local_damping < 1))
-    throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
-  if (!(o.max_time > 0) || !std::isfinite(o.max_time))
-    throw geom::InputError("max_time", number(o.max_time), "a finite number > 0 s");
-  if (!(o.safety > 0 && o.safety <= 1))
-    throw geom::InputError("safety", number(o.safety), "in (0, 1]");
-  if (!(o.time_step >= 0) || !std::isfinite(o.time_step))
-    throw geom::InputError("time_step", number(o.time_step), "a finite number > 0 s");
+  if (o.friction_angle)
+    require(*o.friction_angle >= 0 && *o.friction_angle < M_PI / 2, "friction_angle", *o.friction_angle,
+            "in [0, pi/2) rad");
+  require_in("kinetic_energy_ratio", o.kinetic_energy_ratio, "(0, 1)", "1e-6 is usual");
+  require_in("local_damping", o.local_damping, "[0, 1)");
+  require_above("max_time", o.max_time, 0, "s");
+  require_in("safety", o.safety, "(0, 1]");
+  check_time_step(o.time_step);
 }
 
 void check(const Flow& flow) {
   if (flow.water) {
     for (const auto& [name, value] : {std::pair("drag", flow.drag), std::pair("added_mass", flow.added_mass)})
-      if (!(value >= 0 && value <= 100))
-        throw geom::InputError(name, number(value), "from 0 to 100");
+      require(value >= 0 && value <= 100, name, value, "from 0 to 100");
     return;
   }
   require_finite("direction", flow.direction);
   if (!(flow.direction.norm() > 0))
     throw geom::InputError("direction", "(0, 0, 0)", "longer than zero");
-  if (!(flow.water_density > 0) || !std::isfinite(flow.water_density))
-    throw geom::InputError("water_density", number(flow.water_density), "a finite number > 0 kg/m3");
+  require_above("water_density", flow.water_density, 0, "kg/m3");
 }
 
 void check(const CriticalFlowOptions& o) {
   check(o.flow);
   check(o.mass_scaling);
-  const auto require = [](const char* field, double value, double low, double high, const char* allowed) {
-    if (!(value > low && value < high))
-      throw geom::InputError(field, number(value), allowed);
-  };
-  const double infinity = std::numeric_limits<double>::infinity();
-  require("pressure_rate", o.pressure_rate, 0, infinity, "a finite number > 0 Pa/s");
-  require("hold_periods", o.hold_periods, 0, infinity, "a finite number > 0");
-  require("fragment_fraction", o.fragment_fraction, 0, 1, "in (0, 1)");
-  require("compliance_ratio", o.compliance_ratio, 1, infinity, "a finite number > 1");
-  require("max_velocity", o.max_velocity, 1, infinity, "a finite number > 1 m/s");
-  if (!(o.safety > 0 && o.safety <= 1))
-    throw geom::InputError("safety", number(o.safety), "in (0, 1]");
-  if (!(o.local_damping >= 0 && o.local_damping < 1))
-    throw geom::InputError("local_damping", number(o.local_damping), "in [0, 1)");
+  require_above("pressure_rate", o.pressure_rate, 0, "Pa/s");
+  require_above("hold_periods", o.hold_periods, 0);
+  require_in("fragment_fraction", o.fragment_fraction, "(0, 1)");
+  require_above("compliance_ratio", o.compliance_ratio, 1);
+  require_above("max_velocity", o.max_velocity, 1, "m/s");
+  require_in("safety", o.safety, "(0, 1]");
+  require_in("local_damping", o.local_damping, "[0, 1)");
 }
 
 } // namespace cdem

@@ -1,12 +1,12 @@
 #include "libcdem/joint/hoek_brown.hpp"
 
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -21,18 +21,12 @@ double power(double x, double exponent) {
 } // namespace
 
 void validate(const RockMass& rock) {
-  const auto require = [](const char* field, double value, bool good, const char* range, const char* advice) {
-    if (!(good && std::isfinite(value)))
-      throw geom::InputError(field, fmt::format("{:g}", value), range, advice);
-  };
-  require("sigma_ci", rock.sigma_ci, rock.sigma_ci > 0, "a finite number > 0 Pa",
-          "the uniaxial compressive strength of the intact rock");
-  require("gsi", rock.geological_strength, rock.geological_strength >= 5 && rock.geological_strength <= 100,
-          "in [5, 100]", "the geological strength index; 100 is intact rock");
-  require("m_i", rock.intact_constant, rock.intact_constant > 0, "a finite number > 0",
-          "4 for claystone to 33 for granite");
-  require("disturbance", rock.disturbance, rock.disturbance >= 0 && rock.disturbance <= 1, "in [0, 1]",
-          "D: 0 is undisturbed rock, 1 poor blasting");
+  geom::require_above("sigma_ci", rock.sigma_ci, 0, "Pa",
+                      "the uniaxial compressive strength of the intact rock");
+  geom::require_in("gsi", rock.geological_strength, "[5, 100]",
+                   "the geological strength index; 100 is intact rock");
+  geom::require_above("m_i", rock.intact_constant, 0, "", "4 for claystone to 33 for granite");
+  geom::require_in("disturbance", rock.disturbance, "[0, 1]", "D: 0 is undisturbed rock, 1 poor blasting");
 }
 
 HoekBrown hoek_brown(const RockMass& rock) {
@@ -48,10 +42,6 @@ HoekBrown hoek_brown(const RockMass& rock) {
 
 double strength(const HoekBrown& law, double p3) {
   return p3 + law.sigma_ci * power(law.m_b * p3 / law.sigma_ci + law.s, law.a);
-}
-
-double uniaxial_strength(const HoekBrown& law) {
-  return strength(law, 0);
 }
 
 double uniaxial_tensile_strength(const HoekBrown& law) {

@@ -36,7 +36,6 @@ HoekBrown hoek_brown(const RockMass&);
 
 double strength(const HoekBrown&, double p3);       // p1 at failure, Pa
 double slope(const HoekBrown&, double p3);          // its derivative
-double uniaxial_strength(const HoekBrown&);         // sigma_ci s^a, Pa
 double uniaxial_tensile_strength(const HoekBrown&); // Pa: -p3 at p1 = 0
 
 // A Mohr-Coulomb strength p1 = q + n p3, with q = 2 c cos(phi) / (1 - sin(phi)) and n = (1 + sin(phi)) / (1 - sin(phi)).

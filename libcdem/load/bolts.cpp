@@ -1,6 +1,7 @@
 #include "libcdem/load/bolts.hpp"
 
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
@@ -92,8 +93,7 @@ void set_bolt(const Model& model, State& state, const Bolt& bolt) {
   const auto require_inside = [&](const RockPlace& at, const char* end, const geom::Vec3& x) {
     if (!at.inside)
       throw geom::InputError(
-          end, fmt::format("({:g}, {:g}, {:g})", x.x(), x.y(), x.z()),
-          "a place in the rock, or on its surface",
+          end, geom::shown(x), "a place in the rock, or on its surface",
           "this end of the bolt hangs in the air; move it, or set the bolt before the rock "
           "around it is taken out");
   };

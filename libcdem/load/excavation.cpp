@@ -1,21 +1,19 @@
 #include "libcdem/load/excavation.hpp"
 
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 namespace cdem {
 
 void check(const Excavation& excavation) {
-  if (!(excavation.relaxed >= 0 && excavation.relaxed <= 1))
-    throw geom::InputError("relaxed", fmt::format("{:g}", excavation.relaxed), "a number from 0 to 1",
-                           "the share of the excavation's forces that goes");
-  if (!(excavation.over >= 0 && std::isfinite(excavation.over)))
-    throw geom::InputError("over", fmt::format("{:g}", excavation.over), "a finite number >= 0 s");
+  geom::require(excavation.relaxed >= 0 && excavation.relaxed <= 1, "relaxed", excavation.relaxed,
+                "a number from 0 to 1", "the share of the excavation's forces that goes");
+  geom::require_at_least("over", excavation.over, 0, "s");
 }
 
 void add_excavations(const State& state, ResolvedConditions& r) {

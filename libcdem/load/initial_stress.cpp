@@ -5,6 +5,7 @@
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/joint/mohr_coulomb.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -20,14 +21,11 @@ constexpr double rounding = 1e-9;
 
 void check(const InitialStress& field, double top) {
   for (const double component : field.stress)
-    if (!std::isfinite(component))
-      throw geom::InputError("stress", fmt::format("{:g}", component),
-                             "six finite numbers (xx yy zz xy yz xz), Pa");
-  if (!(std::isfinite(field.gradient) && field.gradient >= 0))
-    throw geom::InputError("gradient", fmt::format("{:g}", field.gradient), "a finite number >= 0 Pa/m");
+    geom::require(std::isfinite(component), "stress", component,
+                  "six finite numbers (xx yy zz xy yz xz), Pa");
+  geom::require_at_least("gradient", field.gradient, 0, "Pa/m");
   for (const double k : field.k0)
-    if (!(std::isfinite(k) && k >= 0))
-      throw geom::InputError("k0", fmt::format("{:g}", k), "a finite number >= 0, or two of them {kx, ky}");
+    geom::require(std::isfinite(k) && k >= 0, "k0", k, "a finite number >= 0, or two of them {kx, ky}");
   if (field.surface && !std::isfinite(*field.surface))
     throw geom::InputError("surface", fmt::format("{:g}", *field.surface), "a finite height z, m",
                            fmt::format("the top of the model is at {:g} m", top));

@@ -4,6 +4,7 @@
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/load/water_table.hpp"
 #include "libcdem/model/joint_set.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -14,13 +15,11 @@ namespace cdem {
 namespace {
 
 std::string in_words(const geom::Vec3& x) {
-  return fmt::format("({:g}, {:g}, {:g}) m", x.x(), x.y(), x.z());
+  return geom::shown(x) + " m";
 }
 
 void check(const Model& model, const Water& water) {
-  if (!(std::isfinite(water.weight) && water.weight > 0))
-    throw geom::InputError("weight", fmt::format("{:g}", water.weight), "a finite number > 0 N/m3",
-                           "water has 9810");
+  geom::require_above("weight", water.weight, 0, "N/m3", "water has 9810");
   for (const std::string& set : water.sets)
     require_joint_set(model, "joints", set);
   if (!water.level)

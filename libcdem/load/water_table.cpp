@@ -1,6 +1,7 @@
 #include "libcdem/load/water_table.hpp"
 
 #include "libgeom/assembly/discs.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -128,8 +129,7 @@ double required_height(const WaterTable& table, const geom::Vec3& place) {
 
 std::shared_ptr<const WaterTable> water_plane(const geom::Vec3& point, double dip, double dip_direction) {
   if (!point.allFinite())
-    throw geom::InputError("point", fmt::format("({:g}, {:g}, {:g})", point.x(), point.y(), point.z()),
-                           "three finite numbers (m)");
+    throw geom::InputError("point", geom::shown(point), "three finite numbers (m)");
   const geom::Vec3 normal = geom::normal_of_dip(dip, dip_direction);
   if (!(normal.z() > upright))
     throw geom::InputError("dip", fmt::format("{:g} rad", dip), "from 0 to less than 90 degrees");
@@ -153,13 +153,10 @@ std::shared_ptr<const WaterTable> water_profile(std::vector<std::array<double, 2
       throw geom::InputError(row, fmt::format("{:g}", rows[i][1]), "a finite height z, m");
   }
   if (!origin.allFinite())
-    throw geom::InputError("origin", fmt::format("({:g}, {:g}, {:g})", origin.x(), origin.y(), origin.z()),
-                           "three finite numbers (m)");
+    throw geom::InputError("origin", geom::shown(origin), "three finite numbers (m)");
   const double length = std::hypot(direction.x(), direction.y());
   if (!(length > 0 && std::isfinite(length)) || direction.z() != 0)
-    throw geom::InputError("direction",
-                           fmt::format("({:g}, {:g}, {:g})", direction.x(), direction.y(), direction.z()),
-                           "a horizontal direction, such as {1, 0, 0}");
+    throw geom::InputError("direction", geom::shown(direction), "a horizontal direction, such as {1, 0, 0}");
   return std::make_shared<WaterProfile>(std::move(rows), origin, direction / length);
 }
 

@@ -2,6 +2,7 @@
 
 #include "libcdem/fracture/crack_path.hpp"
 #include "libcdem/procedure/refine.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -16,21 +17,14 @@ namespace {
 constexpr double parted = 0.05;
 
 void check(const GrowOptions& o) {
-  const auto require = [](bool ok, const char* field, const std::string& value, const char* allowed,
-                          const char* advice = "") {
-    if (!ok)
-      throw geom::InputError(field, value, allowed, advice);
-  };
-  const auto number = [](double x) { return fmt::format("{:g}", x); };
-  require(o.passes >= 1, "passes", std::to_string(o.passes), "an integer >= 1");
-  require(o.break_ratio > 0 && o.break_ratio <= 1, "break_ratio", number(o.break_ratio), "in (0, 1]",
-          "0.9 breaks the worst face and those within a tenth of it");
+  geom::require(o.passes >= 1, "passes", o.passes, "an integer >= 1");
+  geom::require_in("break_ratio", o.break_ratio, "(0, 1]",
+                   "0.9 breaks the worst face and those within a tenth of it");
   if (o.tip_radius)
-    require(std::isfinite(*o.tip_radius) && *o.tip_radius > 0, "tip_radius", number(*o.tip_radius),
-            "a finite number > 0 m", "one block size is usual");
-  require(o.residual > 0 && o.residual < 1, "residual", number(o.residual), "in (0, 1)", "1e-5 is usual");
-  require(o.max_steps >= 1, "max_steps", std::to_string(o.max_steps), "an integer >= 1");
-  require(o.max_rounds >= 1, "max_rounds", std::to_string(o.max_rounds), "an integer >= 1");
+    geom::require_above("tip_radius", *o.tip_radius, 0, "m", "one block size is usual");
+  geom::require_in("residual", o.residual, "(0, 1)", "1e-5 is usual");
+  geom::require(o.max_steps >= 1, "max_steps", static_cast<double>(o.max_steps), "an integer >= 1");
+  geom::require(o.max_rounds >= 1, "max_rounds", o.max_rounds, "an integer >= 1");
 }
 
 // Whole faces break at the mean of their tractions: the energy that a softening bond has yet to take is no part of it.

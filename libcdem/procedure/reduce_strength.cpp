@@ -1,11 +1,11 @@
 #include "libcdem/procedure/reduce_strength.hpp"
 
 #include "libcdem/joint/strength_reduction.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -70,8 +70,7 @@ void reduce_blocks(Model& model, double factor) {
 } // namespace
 
 void reduce_strength(Model& model, double factor, const StrengthKinds& kinds) {
-  if (!(factor > 0) || !std::isfinite(factor))
-    throw geom::InputError("factor", fmt::format("{:g}", factor), "a finite number > 0");
+  geom::require_above("factor", factor, 0);
   if (kinds.joints)
     reduce_joints(model, factor);
   if (kinds.blocks)

@@ -5,12 +5,12 @@
 #include "libcdem/fracture/slicing.hpp"
 #include "libcdem/fracture/tip_field.hpp"
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -21,31 +21,19 @@ constexpr double on_plane = 1e-9;
 constexpr double right_angle = 1.57079632679489661923; // rad
 
 void check(const RefineOptions& o) {
-  const auto require = [](bool ok, const char* field, const std::string& value, const char* allowed) {
-    if (!ok)
-      throw geom::InputError(field, value, allowed);
-  };
-  const auto number = [](double x) { return fmt::format("{:g}", x); };
-  require(std::isfinite(o.tension_threshold) && o.tension_threshold >= 0, "tension_threshold",
-          number(o.tension_threshold), "a finite number >= 0 Pa");
-  require(std::isfinite(o.shear_threshold) && o.shear_threshold >= 0, "shear_threshold",
-          number(o.shear_threshold), "a finite number >= 0 Pa");
+  geom::require_at_least("tension_threshold", o.tension_threshold, 0, "Pa");
+  geom::require_at_least("shear_threshold", o.shear_threshold, 0, "Pa");
   if (o.cohesion)
-    require(std::isfinite(*o.cohesion) && *o.cohesion >= 0, "cohesion", number(*o.cohesion),
-            "a finite number >= 0 Pa");
+    geom::require_at_least("cohesion", *o.cohesion, 0, "Pa");
   if (o.friction_angle)
-    require(*o.friction_angle >= 0 && *o.friction_angle < right_angle, "friction_angle",
-            number(*o.friction_angle * 90 / right_angle), "in [0, 90) degrees");
+    geom::require(*o.friction_angle >= 0 && *o.friction_angle < right_angle, "friction_angle",
+                  *o.friction_angle * 90 / right_angle, "in [0, 90) degrees");
   if (o.tensile_strength)
-    require(std::isfinite(*o.tensile_strength) && *o.tensile_strength >= 0, "tensile_strength",
-            number(*o.tensile_strength), "a finite number >= 0 Pa");
-  require(o.planes >= 1 && o.planes <= 15, "planes", std::to_string(o.planes), "an integer in 1..15");
-  if (o.anchor)
-    require(o.anchor->allFinite(), "anchor",
-            fmt::format("({:g}, {:g}, {:g})", o.anchor->x(), o.anchor->y(), o.anchor->z()),
-            "a finite place, m");
-  require(o.max_depth >= 1 && o.max_depth <= 6, "max_depth", std::to_string(o.max_depth),
-          "an integer in 1..6");
+    geom::require_at_least("tensile_strength", *o.tensile_strength, 0, "Pa");
+  geom::require(o.planes >= 1 && o.planes <= 15, "planes", o.planes, "an integer in 1..15");
+  if (o.anchor && !o.anchor->allFinite())
+    throw geom::InputError("anchor", geom::shown(*o.anchor), "a finite place, m");
+  geom::require(o.max_depth >= 1 && o.max_depth <= 6, "max_depth", o.max_depth, "an integer in 1..6");
 }
 
 BlockStrength strength_of(const Body& body, const RefineOptions& o) {

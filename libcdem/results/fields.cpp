@@ -2,13 +2,13 @@
 
 #include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/nearest.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -226,11 +226,9 @@ std::optional<double> value_at(const Model& model, const State& state, const std
 double value_at(const Model& model, const State& state, const std::string& field, const geom::Vec3& place) {
   if (const auto value = value_at(model, state, field, place, *tets_by_place(model)))
     return *value;
-  throw geom::InputError("at", fmt::format("({:g}, {:g}, {:g})", place.x(), place.y(), place.z()),
-                         fmt::format("a place inside a block; the model's box is from ({:g}, {:g}, {:g}) to "
-                                     "({:g}, {:g}, {:g}) m",
-                                     model.box.min.x(), model.box.min.y(), model.box.min.z(),
-                                     model.box.max.x(), model.box.max.y(), model.box.max.z()));
+  throw geom::InputError("at", geom::shown(place),
+                         "a place inside a block; the model's box is from " + geom::shown(model.box.min) +
+                             " to " + geom::shown(model.box.max) + " m");
 }
 
 } // namespace cdem

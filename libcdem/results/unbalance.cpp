@@ -1,10 +1,10 @@
 #include "libcdem/results/unbalance.hpp"
 
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -24,8 +24,8 @@ std::vector<double> weights_of_blocks(const Model& model, const std::optional<Gr
 
 Unbalance unbalance(const Model& model, const ResolvedConditions& r, const std::vector<Node>& force,
                     const std::optional<Gravity>& gravity, std::optional<double> reference) {
-  if (reference && !(std::isfinite(*reference) && *reference > 0))
-    throw geom::InputError("reference", fmt::format("{:g}", *reference), "a finite number > 0 N");
+  if (reference)
+    geom::require_above("reference", *reference, 0, "N");
   const std::vector<double> weights = weights_of_blocks(model, gravity);
   if (!reference && *std::min_element(weights.begin(), weights.end()) <= 0)
     throw geom::InputError("reference", "missing", "a force (N) to compare with where no gravity acts",

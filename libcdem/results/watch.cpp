@@ -7,11 +7,11 @@
 #include "libcdem/model/unit_order.hpp"
 #include "libcdem/results/units.hpp"
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 namespace cdem {
@@ -86,9 +86,7 @@ std::map<int, Piece> pieces(const Model& model, const State& state, const Watch&
 } // namespace
 
 Watch start_watch(const Model& model, const State& state, const std::string& body, double leaves) {
-  if (!(leaves > 0) || !std::isfinite(leaves))
-    throw geom::InputError("leaves", fmt::format("{:g}", leaves), "a finite number > 0 m",
-                           "half the height of a unit is usual");
+  geom::require_above("leaves", leaves, 0, "m", "half the height of a unit is usual");
   Watch watch;
   watch.leaves = leaves;
   watch.blocks = units_of_body(model, body);

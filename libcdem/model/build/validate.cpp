@@ -1,6 +1,7 @@
 #include "libcdem/material/elastic.hpp"
 
 #include "libcdem/joint/joint.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -10,22 +11,14 @@
 namespace cdem {
 namespace {
 
+using geom::require;
+using geom::require_above;
+using geom::require_at_least;
+using geom::require_in;
+
 constexpr double degree = 3.14159265358979323846 / 180;
 
-void require(bool ok, const char* field, double value, const char* allowed, const char* advice = "") {
-  if (!ok)
-    throw geom::InputError(field, fmt::format("{:g}", value), allowed, advice);
-}
-
-bool positive(double x) {
-  return std::isfinite(x) && x > 0;
-}
-bool not_negative(double x) {
-  return std::isfinite(x) && x >= 0;
-}
-
 void validate_softening(const Joint& j) {
-  const char* const energies = "a finite number > 0 J/m2";
   const char* const advice =
       "a softening bond needs both fracture energies; with softening = none it is brittle";
   if (j.softening == Softening::none) {
@@ -39,17 +32,17 @@ void validate_softening(const Joint& j) {
   if (!j.bonded)
     throw geom::InputError("softening", j.softening == Softening::linear ? "linear" : "exponential",
                            "none for a joint that is not bonded", "a contact has no strength to lose");
-  require(positive(j.fracture_energy_1), "fracture_energy_1", j.fracture_energy_1, energies, advice);
-  require(positive(j.fracture_energy_2), "fracture_energy_2", j.fracture_energy_2, energies, advice);
-  require(positive(j.cohesion), "cohesion", j.cohesion, "a finite number > 0 Pa with softening",
-          "without strength there is nothing to soften");
-  require(positive(j.tensile_strength), "tensile_strength", j.tensile_strength,
-          "a finite number > 0 Pa with softening", "without strength there is nothing to soften");
+  require_above("fracture_energy_1", j.fracture_energy_1, 0, "J/m2", advice);
+  require_above("fracture_energy_2", j.fracture_energy_2, 0, "J/m2", advice);
+  require_above("cohesion", j.cohesion, 0, "Pa with softening",
+                "without strength there is nothing to soften");
+  require_above("tensile_strength", j.tensile_strength, 0, "Pa with softening",
+                "without strength there is nothing to soften");
   // Beyond the cone's tip pure tension would break the bond in shear, and G_I would not be what opening it
   // takes.
   const double tip = j.cohesion / geom::portable::tan(j.friction_angle);
   require(j.tensile_strength <= tip * (1 + 1e-12), "tensile_strength", j.tensile_strength,
-          fmt::format("at most cohesion / tan(friction_angle) = {:g} Pa with softening", tip).c_str(),
+          fmt::format("at most cohesion / tan(friction_angle) = {:g} Pa with softening", tip),
           "the tip of the Mohr-Coulomb cone");
 }
 
@@ -57,10 +50,9 @@ void validate_scatter(const Joint& j) {
   const StrengthScatter& s = j.scatter;
   if (s.modulus == 0)
     return;
-  require(s.modulus >= 2 && s.modulus <= 1000, "weibull.modulus", s.modulus, "in [2, 1000]",
-          "concrete and rock have about 5 to 25");
-  require(positive(s.reference_volume), "weibull.reference_volume", s.reference_volume,
-          "a finite number > 0 m3", "the volume whose mean strength the joint gives");
+  require_in("weibull.modulus", s.modulus, "[2, 1000]", "concrete and rock have about 5 to 25");
+  require_above("weibull.reference_volume", s.reference_volume, 0, "m3",
+                "the volume whose mean strength the joint gives");
   if (!j.bonded)
     throw geom::InputError("weibull", "of a contact", "of a joint that is bonded",
                            "a contact has no strength to scatter");
@@ -70,14 +62,14 @@ void validate_rate_effect(const Joint& j) {
   const RateEffect& r = j.rate;
   if (r.reference_rate == 0)
     return;
-  require(positive(r.reference_rate), "rate_effect.reference_rate", r.reference_rate,
-          "a finite number > 0 1/s", "the rate of strain at which the strengths were measured");
-  require(r.exponent >= 0 && r.exponent <= 1, "rate_effect.exponent", r.exponent, "in [0, 1]",
-          "0.018 for concrete in tension (fib Model Code 2010)");
+  require_above("rate_effect.reference_rate", r.reference_rate, 0, "1/s",
+                "the rate of strain at which the strengths were measured");
+  require_in("rate_effect.exponent", r.exponent, "[0, 1]",
+             "0.018 for concrete in tension (fib Model Code 2010)");
   require(r.change_rate > r.reference_rate, "rate_effect.change_rate", r.change_rate,
           "above reference_rate, 1/s", "the rate from which exponent_above holds");
-  require(r.exponent_above >= 0 && r.exponent_above <= 1, "rate_effect.exponent_above", r.exponent_above,
-          "in [0, 1]", "1/3 for concrete in tension (fib Model Code 2010)");
+  require_in("rate_effect.exponent_above", r.exponent_above, "[0, 1]",
+             "1/3 for concrete in tension (fib Model Code 2010)");
   if (!j.bonded)
     throw geom::InputError("rate_effect", "of a contact", "of a joint that is bonded",
                            "a contact has no strength to raise");
@@ -98,10 +90,10 @@ void validate_law(const Joint& j) {
           std::atan(residual->friction) / degree, "in [0, friction_angle] degrees",
           "the residual is not above the peak");
   require(residual->cohesion <= j.cohesion, "residual_cohesion", residual->cohesion,
-          fmt::format("in [0, {:g}] Pa, at most the cohesion", j.cohesion).c_str(),
+          fmt::format("in [0, {:g}] Pa, at most the cohesion", j.cohesion),
           "the residual is not above the peak");
   require(residual->tension <= j.tensile_strength, "residual_tensile_strength", residual->tension,
-          fmt::format("in [0, {:g}] Pa, at most the tensile strength", j.tensile_strength).c_str(),
+          fmt::format("in [0, {:g}] Pa, at most the tensile strength", j.tensile_strength),
           "the residual is not above the peak");
 }
 
@@ -110,7 +102,7 @@ void validate_curve(const Joint& j) {
     return;
   const double most = uniaxial_tensile_strength(j.curve);
   require(j.tensile_strength <= most * (1 + 1e-9), "tensile_strength", j.tensile_strength,
-          fmt::format("at most {:g} Pa, that of the Hoek-Brown curve", most).c_str());
+          fmt::format("at most {:g} Pa, that of the Hoek-Brown curve", most));
   if (j.softening != Softening::none || j.scatter.on() || j.rate.on())
     throw geom::InputError("softening, weibull and rate_effect", "with a Hoek-Brown strength", "left out",
                            "its faces are brittle");
@@ -136,13 +128,12 @@ void require_energy(const char* field, double energy, double strength, double st
 } // namespace
 
 void validate(const Elastic& m) {
-  require(positive(m.youngs_modulus), "youngs_modulus", m.youngs_modulus, "a finite number > 0 Pa");
-  require(m.poissons_ratio > -1 && m.poissons_ratio < 0.5, "poissons_ratio", m.poissons_ratio, "in (-1, 0.5)",
-          "an incompressible material (0.5) locks; use at most 0.49");
-  require(positive(m.density), "density", m.density, "a finite number > 0 kg/m3");
-  require(not_negative(m.viscosity), "viscosity", m.viscosity, "a finite number >= 0 N s/m4");
-  require(not_negative(m.stiffness_damping), "stiffness_damping", m.stiffness_damping,
-          "a finite number >= 0 s");
+  require_above("youngs_modulus", m.youngs_modulus, 0, "Pa");
+  require_in("poissons_ratio", m.poissons_ratio, "(-1, 0.5)",
+             "an incompressible material (0.5) locks; use at most 0.49");
+  require_above("density", m.density, 0, "kg/m3");
+  require_at_least("viscosity", m.viscosity, 0, "N s/m4");
+  require_at_least("stiffness_damping", m.stiffness_damping, 0, "s");
 }
 
 Joint glued_joint() {
@@ -153,24 +144,21 @@ Joint glued_joint() {
 }
 
 void validate(const Joint& j) {
-  require(not_negative(j.cohesion), "cohesion", j.cohesion, "a finite number >= 0 Pa");
+  require_at_least("cohesion", j.cohesion, 0, "Pa");
   const double angle = j.friction_angle / degree;
   require(angle >= 0 && angle < 90, "friction_angle", angle, "in [0, 90) degrees");
-  require(not_negative(j.tensile_strength), "tensile_strength", j.tensile_strength,
-          "a finite number >= 0 Pa");
-  require(positive(j.thickness_ratio) && j.thickness_ratio <= 1, "thickness_ratio", j.thickness_ratio,
-          "in (0, 1]", "it is the joint's equivalent thickness over the block size");
+  require_at_least("tensile_strength", j.tensile_strength, 0, "Pa");
+  require_in("thickness_ratio", j.thickness_ratio, "(0, 1]",
+             "it is the joint's equivalent thickness over the block size");
   if (j.thickness)
-    require(positive(*j.thickness), "thickness", *j.thickness, "a finite number > 0 m");
+    require_above("thickness", *j.thickness, 0, "m");
   if (j.normal_stiffness)
-    require(positive(*j.normal_stiffness), "normal_stiffness", *j.normal_stiffness,
-            "a finite number > 0 Pa/m");
+    require_above("normal_stiffness", *j.normal_stiffness, 0, "Pa/m");
   if (j.shear_stiffness)
-    require(positive(*j.shear_stiffness), "shear_stiffness", *j.shear_stiffness, "a finite number > 0 Pa/m");
-  require(not_negative(j.stiffness_damping), "stiffness_damping", j.stiffness_damping,
-          "a finite number >= 0 s");
-  require(positive(j.restitution) && j.restitution <= 1, "restitution", j.restitution, "in (0, 1]",
-          "it is the speed after an impact over the speed before it");
+    require_above("shear_stiffness", *j.shear_stiffness, 0, "Pa/m");
+  require_at_least("stiffness_damping", j.stiffness_damping, 0, "s");
+  require_in("restitution", j.restitution, "(0, 1]",
+             "it is the speed after an impact over the speed before it");
   validate_softening(j);
   validate_scatter(j);
   validate_rate_effect(j);
