@@ -4,10 +4,12 @@
 #include "lua/binding/files/files.hpp"
 #include "lua/binding/runtime/engine.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <unistd.h>
 #include <vector>
@@ -129,6 +131,13 @@ inline std::string column(const std::string& divisions = "{2, 1, 1}", const std:
          size + ", divisions = " + divisions +
          " },\n  material = rock, joint = joint, name = 'column', element = 'small_strain' } } }\n"
          "model:fix{ on = 'x-', axes = 'xyz' }\n";
+}
+
+inline std::vector<std::string> those_with(const std::vector<std::string>& lines, const std::string& words) {
+  std::vector<std::string> found;
+  std::copy_if(lines.begin(), lines.end(), std::back_inserter(found),
+               [&](const std::string& line) { return line.find(words) != std::string::npos; });
+  return found;
 }
 
 } // namespace cdem::script::test

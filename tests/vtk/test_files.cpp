@@ -2,6 +2,7 @@
 #include "libcdem/vtk/file_error.hpp"
 #include "libcdem/vtk/files.hpp"
 #include "libgeom/core/error.hpp"
+#include "tests/vtk/same_files.hpp"
 #include "tests/vtk/sample.hpp"
 #include "tests/vtk/temporary_folder.hpp"
 
@@ -29,59 +30,8 @@
 #include <sstream>
 
 using namespace cdem;
+using namespace testing;
 using Catch::Matchers::Contains;
-
-namespace {
-
-std::string contents(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-void overwrite(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
-void require_same(const std::vector<SnapshotField>& a, const std::vector<SnapshotField>& b) {
-  REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    INFO(a[i].name);
-    CHECK(a[i].name == b[i].name);
-    CHECK(a[i].unit == b[i].unit);
-    CHECK(a[i].components == b[i].components);
-    CHECK(a[i].integer == b[i].integer);
-    CHECK(same_bits(a[i].values, b[i].values));
-  }
-}
-
-// Places instead of node numbers, so that two ways to number them compare equal.
-std::multiset<std::vector<double>> places(const Snapshot& s, const std::vector<geom::Triangle>& triangles) {
-  std::multiset<std::vector<double>> set;
-  for (const geom::Triangle& t : triangles) {
-    std::vector<double> key;
-    // Start at the smallest node, keep the sense: two triangles are equal only when they face the same way.
-    const std::size_t first = static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
-    for (std::size_t c = 0; c < 3; ++c)
-      for (int k = 0; k < 3; ++k)
-        key.push_back(s.points[static_cast<std::size_t>(t[(first + c) % 3])][k]);
-    set.insert(key);
-  }
-  return set;
-}
-
-std::set<std::array<int, 2>> sorted(std::vector<std::array<int, 2>> edges) {
-  for (auto& e : edges)
-    std::sort(e.begin(), e.end());
-  return {edges.begin(), edges.end()};
-}
-
-} // namespace
 
 namespace {
 
@@ -96,27 +46,6 @@ Snapshot demanding_plate() {
   s.point_fields[0].values[1] = -0.0;
   s.point_fields[0].values[2] = 1.7976931348623157e308;
   return s;
-}
-
-// VTK's reader of .vtkhdf lists fields by name.
-std::vector<SnapshotField> by_name(std::vector<SnapshotField> fields) {
-  std::sort(fields.begin(), fields.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-  return fields;
-}
-
-void require_same(const Snapshot& r, const Snapshot& s) {
-  CHECK(r.title == s.title);
-  CHECK(r.body_names == s.body_names);
-  CHECK(r.time == s.time);
-  CHECK(r.step == s.step);
-  CHECK(r.points == s.points);
-  CHECK(r.tets == s.tets);
-  require_same(by_name(r.point_fields), by_name(s.point_fields));
-  require_same(by_name(r.cell_fields), by_name(s.cell_fields));
-  CHECK(r.bonds.points == s.bonds.points);
-  CHECK(r.bonds.triangles == s.bonds.triangles);
-  require_same(by_name(r.bonds.point_fields), by_name(s.bonds.point_fields));
-  require_same(by_name(r.bonds.triangle_fields), by_name(s.bonds.triangle_fields));
 }
 
 } // namespace
@@ -345,123 +274,6 @@ TEST_CASE(
   CHECK_THAT(said,
              Contains("a " + std::to_string(s.points.size()) + " " + std::to_string(s.tets.size()) + "\n") &&
                  Contains("contacts 1 1\n"));
-}
-
-namespace {
-
-// Boxes of tetrahedra, each a block, with their bonds.
-Snapshot boxes() {
-  Snapshot s = sample::blocks(sample::grid(3, 2, 3, 2), 0.5);
-  sample::add_wedge_fields(s, 1e-3);
-  sample::add_interface(s, {0, 1}, {3, 1}, 0.5, BondMode::broken_tension, 8);
-  s.title = "boxes";
-  s.time = 0.25;
-  s.step = 12;
-  return s;
-}
-
-} // namespace
-
-TEST_CASE("a large file is written in pieces, which read back to the bit") {
-  const Snapshot s = boxes();
-  const auto n = s.tets.size();
-  for (const std::size_t limit : {n - 1, n / 3, std::size_t{7}, std::size_t{1}}) {
-    const TemporaryFolder folder;
-    CAPTURE(limit);
-    write_vtu(s, folder / "whole.vtu");
-    write_bonds(s, folder / "whole_bonds.vtu");
-    CHECK(write_vtu(s, folder / "a.vtu", limit) == folder / "a.pvtu");
-    write_bonds(s, folder / "a_bonds.vtu", limit);
-    const Snapshot whole = read_vtu(folder / "whole.vtu"), joined = read_vtu(folder / "a.pvtu");
-    require_same(joined, whole);
-    require_same(joined, s);
-    CHECK(places(joined, joined.surface) ==
-          places(whole, whole.surface)); // pieces have no outside of their own
-    CHECK(sorted(joined.block_edges) == sorted(whole.block_edges));
-    std::size_t cells = 0, pieces = 0;
-    for (; std::ifstream(folder / ("a/a_" + std::to_string(pieces) + ".vtu")); ++pieces)
-      cells += read_vtu(folder / ("a/a_" + std::to_string(pieces) + ".vtu")).tets.size();
-    CHECK(cells == n);
-    CHECK(pieces == (n + limit - 1) / limit);
-  }
-}
-
-TEST_CASE("a file within the limit is the same as ever") {
-  const TemporaryFolder folder;
-  const Snapshot s = boxes();
-  write_vtu(s, folder / "a.vtu");
-  CHECK(write_vtu(s, folder / "b.vtu", s.tets.size()) == folder / "b.vtu");
-  CHECK(contents(folder / "a.vtu") == contents(folder / "b.vtu"));
-  CHECK(write_vtu(s, folder / "a.vtkhdf", 1) == folder / "a.vtkhdf"); // one file of any number
-}
-
-TEST_CASE("VTK reads the pieces of a large file as one") {
-  const TemporaryFolder folder;
-  const Snapshot s = boxes();
-  write_vtu(s, folder / "a.vtu", 5);
-  vtkNew<vtkXMLPUnstructuredGridReader> reader;
-  reader->SetFileName((folder / "a.pvtu").c_str());
-  reader->Update();
-  vtkUnstructuredGrid* grid = reader->GetOutput();
-  REQUIRE(grid->GetNumberOfCells() == static_cast<vtkIdType>(s.tets.size()));
-  for (const SnapshotField& field : s.cell_fields) {
-    INFO(field.name);
-    vtkDataArray* array = grid->GetCellData()->GetArray(field.name.c_str());
-    REQUIRE(array);
-    REQUIRE(array->GetNumberOfComponents() == field.components);
-    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
-      CHECK(array->GetComponent(cell, 0) ==
-            field.values[static_cast<std::size_t>(cell) * static_cast<std::size_t>(field.components)]);
-  }
-  for (const SnapshotField& field : s.point_fields)
-    CHECK(grid->GetPointData()->GetArray(field.name.c_str()));
-}
-
-TEST_CASE("a file takes the place of pieces of its name, and pieces that of a file") {
-  const TemporaryFolder folder;
-  const Snapshot s = boxes();
-  const auto exists = [&](const std::string& name) { return std::filesystem::exists(folder / name); };
-  write_vtu(s, folder / "a.vtu");
-  write_vtu(s, folder / "a.vtu", 10);
-  CHECK(!exists("a.vtu"));
-  CHECK(exists("a/a_3.vtu"));
-  write_vtu(s, folder / "a.vtu", s.tets.size() - 1);
-  CHECK(exists("a/a_1.vtu"));
-  CHECK(!exists("a/a_2.vtu"));
-  overwrite(folder / "a/mine.txt", "kept");
-  write_vtu(s, folder / "a.vtu");
-  CHECK(exists("a.vtu"));
-  CHECK(!exists("a.pvtu"));
-  CHECK(!exists("a/a_0.vtu"));
-  CHECK(exists("a/mine.txt"));
-}
-
-TEST_CASE("pieces that do not belong together are refused in one line") {
-  const TemporaryFolder folder;
-  Snapshot s = boxes();
-  write_vtu(s, folder / "a.vtu", 10);
-  const auto refused = [&](const std::string& reason) {
-    CHECK_THROWS_WITH(read_vtu(folder / "a.pvtu"), Contains("a.pvtu") && Contains(reason));
-  };
-  const std::string piece = contents(folder / "a/a_1.vtu"), list = contents(folder / "a.pvtu");
-  s.step += 1;
-  write_vtu(s, folder / "b.vtu", 10);
-  overwrite(folder / "a/a_1.vtu", contents(folder / "b/b_1.vtu"));
-  refused("its pieces are of different moments");
-  write_vtu(sample::plate(), folder / "a/a_1.vtu");
-  CHECK_THROWS_AS(read_vtu(folder / "a.pvtu"), geom::InputError);
-  overwrite(folder / "a/a_1.vtu", piece.substr(0, piece.size() / 2));
-  CHECK_THROWS_WITH(read_vtu(folder / "a.pvtu"), Contains("a_1.vtu") && Contains("incomplete"));
-  std::filesystem::remove(folder / "a/a_1.vtu");
-  CHECK_THROWS_WITH(read_vtu(folder / "a.pvtu"), Contains("a_1.vtu") && Contains("there is no such file"));
-  overwrite(folder / "a/a_1.vtu", piece);
-  CHECK(read_vtu(folder / "a.pvtu").tets.size() == s.tets.size());
-  std::string outside = list;
-  outside.replace(outside.find("a/a_1.vtu"), 9, "../x1.vtu");
-  overwrite(folder / "a.pvtu", outside);
-  refused("changed or damaged");
-  REQUIRE(add_checksum(folder / "a.pvtu"));
-  refused("outside its folder");
 }
 
 TEST_CASE("no temporary file stays behind") {

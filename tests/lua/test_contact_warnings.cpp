@@ -1,0 +1,82 @@
+// What a script is warned of where bodies meet, or never do.
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// A rigid ground of 2 x 2 m, and cubes of 0.4 m that stand a millimetre above it.
+std::string on_ground(const std::string& cubes, const std::string& contacts) {
+  return "local cdem = require 'cdem'\n"
+         "local rock = cdem.elastic{ youngs_modulus = 1e8, poissons_ratio = 0.2, density = 2000 }\n"
+         "local rough = cdem.coulomb{ friction_angle = 40 }\n"
+         "local bodies = { { shape = cdem.box{ size = {2, 2, 0.5}, origin = {0, 0, -0.5} }, material = rock, "
+         "name = 'ground', element = 'rigid' } }\n"
+         "for name, x in pairs{ " +
+         cubes +
+         " } do bodies[#bodies + 1] = { shape = cdem.box{ size = {0.4, 0.4, 0.4}, origin = {x, 0.8, 0.001} "
+         "}, "
+         "material = rock, name = name } end\n"
+         "local model = cdem.model{ bodies = bodies, contacts = { " +
+         contacts +
+         " } }\n"
+         "model:fix{ on = 'ground' }\n"
+         "model:gravity{ vector = {0, 0, -9.81} }\n";
+}
+
+} // namespace
+
+TEST_CASE("a contact that acted on nothing is told of when the run ends", "[lua]") {
+  const auto told = [](const std::string& stages) {
+    return those_with(
+        warnings_of(on_ground("left = 0.2, right = 1.4",
+                              "{'left', 'right', rough}, {'left', 'ground', rough}, default = rough") +
+                    stages),
+        "the law acted on nothing");
+  };
+  CHECK(told("").empty()); // nothing was solved
+  const auto warnings = told("model:settle{}");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0],
+             Contains("contact of \"left\" and \"right\": they had no interface and never touched"));
+}
+
+TEST_CASE("a contact that closes once has acted", "[lua]") {
+  CHECK(those_with(
+            warnings_of(on_ground("left = 0.2, right = 0.61", "{'left', 'right', rough}, default = rough") +
+                        "model:initial_velocity{ on = 'left', velocity = {0.5, 0, 0} }\n"
+                        "model:run{ duration = 0.03, safety = 0.3 }"),
+            "the law acted on nothing")
+            .empty());
+}
+
+TEST_CASE("blocks of small strain that share no face are told of at once", "[lua]") {
+  const auto warnings = warnings_of(
+      "local cdem = require 'cdem'\n"
+      "local rock = cdem.elastic{ youngs_modulus = 1e8, poissons_ratio = 0.2, density = 2000 }\n"
+      "local function box(x, name) return { shape = cdem.box{ size = {1, 1, 1}, origin = {x, 0, 0} }, "
+      "material = rock, name = name, element = 'small_strain' } end\n"
+      "cdem.model{ bodies = { box(0, 'a'), box(1.1, 'b') }, "
+      "contacts = { {'a', 'b', cdem.coulomb{ friction_angle = 30 }} } }");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("case.lua:4: warning: contact of \"a\" and \"b\": they share no face"));
+}
+
+TEST_CASE("a unit that falls off its ground is told of once, and the others come to rest", "[lua]") {
+  Script script(on_ground("stays = 0.8, falls = 1.9", "default = rough") +
+                "assert(model:settle{ max_time = 5 }.converged)\n"
+                "local z = model:min('displacement.z', 'falls')\n"
+                "assert(model:run{ duration = 0.01 }.steps > 0)\n"
+                "assert(model:min('displacement.z', 'falls') == z)\n" // held there
+                "cdem.report{ { name = 'stays', value = model:min('displacement.z', 'stays') } }");
+  script.run();
+  const auto told = those_with(script.listener->lines, "has left the model");
+  REQUIRE(told.size() == 1);
+  CHECK_THAT(told[0], Contains("warning: stage 1 (settle: rigid fall): \"falls\" has left the model at 1.") &&
+                          Contains("it is held there and the rest goes on"));
+  CHECK_THAT(script.read("report.json"), Contains("case.lua:9: warning: stage 1 (settle: rigid fall)"));
+}
