@@ -98,6 +98,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   if (model.surface.empty() || !own.due)
     return sums;
   own.blocks_due = own.blocks_due || own.looks_at_all;
+  std::fill(own.changed.begin(), own.changed.end(), Change::none);
   const bool out_of_skin = add_displacements(model, state, own, threads) || own.looks_at_all,
              fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
   if (fragments_due || out_of_skin) {
@@ -110,8 +111,6 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   }
   keep_own_contacts(model, state, own);
   own.any_depth_begins = !known || (anew && any_bonded_faces(model, state));
-  if (!fragments_due)
-    std::fill(own.changed.begin(), own.changed.end(), 0);
   // If a fragment has fallen apart, each contact stays with the part on which it acts.
   if (fragments_due) {
     for (Contact& c : state.contacts)

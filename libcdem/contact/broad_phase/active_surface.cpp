@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
 #include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/renewed.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
@@ -157,7 +158,7 @@ bool ActiveSurface::finite() const {
 }
 
 ActiveSurface active_surface(const Model& model, const State& state, const ContactWork& work,
-                             const SearchMargin& margins, const std::vector<char>& searched, int threads) {
+                             const SearchMargin& margins, const Renewed& renewed, int threads) {
   const ContactSurface& s = model.surface;
   ActiveSurface part;
   part.block_begin.push_back(0);
@@ -172,8 +173,12 @@ ActiveSurface active_surface(const Model& model, const State& state, const Conta
   }
   part.facets.resize(part.triangles.size());
   part.boxes.resize(part.triangles.size());
-  for (const int t : part.triangles)
-    part.searched.push_back(searched[work.movers.of_triangle[t]]);
+  for (const int t : part.triangles) {
+    const int mover = work.movers.of_triangle[t];
+    part.source_searched.push_back(
+        static_cast<char>(renewed.movers[mover] || work.changed[t] >= Change::joint));
+    part.target_searched.push_back(static_cast<char>(renewed.movers[mover] || renewed.surfaced[mover]));
+  }
   part.block_boxes.resize(part.block_begin.size() - 1);
   part.outlines.resize(part.block_boxes.size());
   for_chunks(static_cast<std::int64_t>(part.block_boxes.size()), threads, [&](std::int64_t b) {

@@ -8,6 +8,8 @@
 
 namespace cdem {
 
+struct Renewed; // broad_phase/renewed.hpp
+
 // Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself. Movers are
 // known; those that are searched (per mover); all: of all. Returns how far each mover moves in a step, m.
 std::vector<double> choose_skins(const Model&, const State&, ContactWork&, const std::vector<char>& searched,
@@ -72,19 +74,19 @@ struct Facet {
 };
 
 struct ActiveSurface {
-  std::vector<int> triangles;         // by block
-  std::vector<int> place;             // per triangle of the model: its number here; -1: it is not active
-  std::vector<int> block_begin;       // (n_blocks + 1) into triangles
-  std::vector<Facet> facets;          // per triangle
-  std::vector<geom::Box> boxes;       // per triangle, with its margin
-  std::vector<char> searched;         // per triangle: its mover is
+  std::vector<int> triangles;   // by block
+  std::vector<int> place;       // per triangle of the model: its number here; -1: it is not active
+  std::vector<int> block_begin; // (n_blocks + 1) into triangles
+  std::vector<Facet> facets;    // per triangle
+  std::vector<geom::Box> boxes; // per triangle, with its margin
+  // Per triangle: what is near it in other blocks is searched, as a source and as a target.
+  std::vector<char> source_searched, target_searched;
   std::vector<geom::Box> block_boxes; // per block, with margins
   std::vector<geom::Box> outlines;    // per block, without
 
   bool finite() const;
 };
-// searched: per mover.
 ActiveSurface active_surface(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                             const std::vector<char>& searched, int threads);
+                             const Renewed&, int threads);
 
 } // namespace cdem

@@ -31,6 +31,7 @@ void number_movers(const Model& model, ContactWork& work) {
   movers.block.resize(model.blocks.size());
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     movers.block[b] = static_cast<int>(b);
+  movers.fragment.assign(model.blocks.size(), -1);
   movers.of_triangle.resize(s.triangles.size());
   std::vector<int>& of_fragment = movers.of_fragment;
   of_fragment.assign(model.node_position.size(), -1);
@@ -44,6 +45,7 @@ void number_movers(const Model& model, ContactWork& work) {
     if (known < 0) {
       known = movers.count();
       movers.block.push_back(block);
+      movers.fragment.push_back(work.fragment[t]);
     }
     mover = known;
   }
@@ -102,10 +104,10 @@ void find_single_tets(const Model& model, ContactWork& work) {
       triangles = none;
 }
 
-// Writes ContactWork::joint and movers_at_joint.
+// Writes ContactWork::joint and fragments_at_joint.
 void find_joints(const Model& model, const State& state, ContactWork& work) {
   work.joint.clear();
-  work.movers_at_joint.clear();
+  work.fragments_at_joint.clear();
   const auto may_hang = [&](int block) {
     return work.broken[block] && model.bodies[model.blocks[block].body].bonding.is_cohesive();
   };
@@ -129,40 +131,102 @@ void find_joints(const Model& model, const State& state, ContactWork& work) {
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
     if (may_hang(s.triangles[t].block) && work.active[t])
       for (const int node : s.triangles[t].nodes)
-        work.movers_at_joint.emplace_back(work.joint[node], work.movers.of_triangle[t]);
-  std::sort(work.movers_at_joint.begin(), work.movers_at_joint.end());
-  work.movers_at_joint.erase(std::unique(work.movers_at_joint.begin(), work.movers_at_joint.end()),
-                             work.movers_at_joint.end());
+        work.fragments_at_joint.emplace_back(work.joint[node], work.fragment[t]);
+  std::sort(work.fragments_at_joint.begin(), work.fragments_at_joint.end());
+  work.fragments_at_joint.erase(std::unique(work.fragments_at_joint.begin(), work.fragments_at_joint.end()),
+                                work.fragments_at_joint.end());
+}
+
+// Per node: something hung together with it and does so no more.
+std::vector<char> parted_nodes(const ContactWork& before, const ContactWork& work) {
+  if (before.joint.empty() || work.joint.empty())
+    return std::vector<char>(work.fragment_of_node.size(), 0);
+  std::vector<std::pair<int, int>> gone; // (joint, fragment)
+  std::set_difference(before.fragments_at_joint.begin(), before.fragments_at_joint.end(),
+                      work.fragments_at_joint.begin(), work.fragments_at_joint.end(),
+                      std::back_inserter(gone));
+  std::vector<char> of_joint(work.joint.size(), 0), parted(work.joint.size(), 0);
+  for (const auto& [joint, fragment] : gone)
+    of_joint[joint] = 1;
+  for (std::size_t node = 0; node < parted.size(); ++node)
+    parted[node] =
+        static_cast<char>(before.joint[node] != work.joint[node] || of_joint[work.joint[node]] != 0);
+  return parted;
+}
+
+// Writes ContactWork::changed.
+void find_changed(const Model& model, const ContactWork& before, ContactWork& work) {
+  work.changed.assign(work.fragment.size(), Change::none);
+  if (before.fragment.empty())
+    return;
+  const std::vector<char> parted = parted_nodes(before, work);
+  for (std::size_t t = 0; t < work.fragment.size(); ++t) {
+    const ContactTriangle& triangle = model.surface.triangles[t];
+    if (!work.broken[triangle.block])
+      continue;
+    if (before.fragment[t] != work.fragment[t] || before.active[t] != work.active[t])
+      work.changed[t] = Change::fragment;
+    if (before.broken[triangle.block] && std::any_of(triangle.nodes.begin(), triangle.nodes.end(),
+                                                     [&](int node) { return parted[node] != 0; }))
+      work.changed[t] = Change::joint;
+    if (!before.active[t] && work.active[t])
+      work.changed[t] = Change::surface;
+  }
+}
+
+// Per mover, its number before; -1: it is a new one. A fragment is the same as long as its smallest node is, though pieces
+// have fallen off it. One that is a single piece has nothing that is further away.
+std::vector<int> numbers_before(const Model& model, const ContactWork& before, const ContactWork& work) {
+  std::vector<int> old(work.movers.count(), -1);
+  if (before.fragment.empty())
+    return old;
+  const auto blocks = static_cast<int>(model.blocks.size());
+  std::vector<char> any_changed(old.size(), 0);
+  for (std::size_t t = 0; t < work.fragment.size(); ++t) {
+    const int mover = work.movers.of_triangle[t];
+    old[mover] = before.movers.of_triangle[t];
+    any_changed[mover] = static_cast<char>(any_changed[mover] || work.changed[t] != Change::none);
+  }
+  const Movers &now = work.movers, &then = before.movers;
+  for (int m = blocks; m < now.count(); ++m) {
+    const int k = old[m];
+    if (k < blocks || then.fragment[k] != now.fragment[m] || then.one_piece[k] != now.one_piece[m] ||
+        then.triangles_of_tet[k] != now.triangles_of_tet[m] || (now.one_piece[m] && any_changed[m]))
+      old[m] = -1;
+  }
+  return old;
+}
+
+// New surface of fragments that go on: its nodes are where they would be had they moved as the fragment did.
+void begin_new_nodes(const State& state, const Movers& before, const std::vector<int>& old,
+                     ContactWork& work) {
+  std::vector<char> known(state.displacement.size(), 0);
+  for (const int node : before.nodes)
+    known[node] = 1;
+  const int blocks = work.movers.count() - static_cast<int>(work.movers.node_begin.size()) + 1;
+  for (int m = blocks; m < work.movers.count(); ++m)
+    for (int i = work.movers.node_begin[m - blocks];
+         old[m] >= 0 && i < work.movers.node_begin[m - blocks + 1]; ++i)
+      if (const int node = work.movers.nodes[i]; !known[node])
+        work.at_search[node] = vec(state.displacement[node]) - work.drift[m];
 }
 
 // What was known of the movers before they were told apart anew goes on for those that are the same.
-void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
-  work.changed.assign(work.movers.count(), 0);
-  std::vector<int> old(work.movers.count(), -1);
-  for (std::size_t t = 0; t < work.fragment.size(); ++t) {
-    const int mover = work.movers.of_triangle[t];
-    if (before.fragment.empty())
-      continue;
-    old[mover] = before.movers.of_triangle[t];
-    if (work.broken[model.surface.triangles[t].block] &&
-        (before.fragment[t] != work.fragment[t] || before.active[t] != work.active[t]))
-      work.changed[mover] = 1;
-    for (const int node : model.surface.triangles[t].nodes)
-      if (!before.joint.empty() && !work.joint.empty() && before.joint[node] != work.joint[node])
-        work.changed[mover] = 1; // it may meet what it hung together with
-  }
+void carry_over(const Model& model, const State& state, ContactWork& before, ContactWork& work) {
+  find_changed(model, before, work);
+  const std::vector<int> old = numbers_before(model, before, work);
   const auto carry = [&](auto ContactWork::*field) {
     auto& now = work.*field;
     auto& then = before.*field;
     now.clear();
     now.resize(work.movers.count());
     for (int m = 0; m < work.movers.count(); ++m)
-      if (!work.changed[m] && old[m] >= 0 && old[m] < static_cast<int>(then.size()))
+      if (old[m] >= 0 && old[m] < static_cast<int>(then.size()))
         now[m] = std::move(then[old[m]]);
   };
   std::vector<int> now_of(before.movers.count(), -1);
   for (int m = 0; m < work.movers.count(); ++m)
-    if (!work.changed[m] && old[m] >= 0)
+    if (old[m] >= 0)
       now_of[old[m]] = m;
   renumber_tet_pairs(now_of, work);
   carry(&ContactWork::travelled);
@@ -176,8 +240,9 @@ void carry_over(const Model& model, ContactWork& before, ContactWork& work) {
   carry(&ContactWork::swing);
   work.drift.assign(work.movers.count(), geom::Vec3::Zero());
   for (int m = 0; m < work.movers.count(); ++m)
-    if (!work.changed[m] && old[m] >= 0 && old[m] < static_cast<int>(before.drift.size()))
+    if (old[m] >= 0 && old[m] < static_cast<int>(before.drift.size()))
       work.drift[m] = before.drift[old[m]];
+  begin_new_nodes(state, before.movers, old, work);
 }
 
 } // namespace
@@ -187,7 +252,9 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   ContactWork before; // of the movers alone
   std::swap(before.fragment, work.fragment);
   std::swap(before.active, work.active);
+  std::swap(before.broken, work.broken);
   std::swap(before.joint, work.joint);
+  std::swap(before.fragments_at_joint, work.fragments_at_joint);
   std::swap(before.movers, work.movers);
   std::swap(before.travelled, work.travelled);
   std::swap(before.skin, work.skin);
@@ -215,7 +282,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   find_single_tets(model, work);
   find_joints(model, state, work);
   find_tets_beyond(model, work);
-  carry_over(model, before, work);
+  carry_over(model, state, before, work);
 }
 
 std::vector<double> speeds_of_movers(const Model& model, const State& state, const ContactWork& work,
@@ -346,7 +413,9 @@ void look_around(const Model& model, ContactWork& work, int m) {
   double least = work.skin[m] - gone_at_most(model, work, m);
   for (const NearMover& other : near) {
     const int k = work.movers.of_fragment[other.fragment];
-    const double may_go = std::max(0.0, other.may_go - gone_since(work, m, k, other.drifts, other.swings));
+    const double gone = std::min(gone_since(work, m, k, other.drifts, other.swings),
+                                 work.travelled[m] + work.travelled[k] - other.travelled),
+                 may_go = std::max(0.0, other.may_go - gone);
     least = std::min(least, may_go);
     work.look_at[k] = std::min(work.look_at[k], work.travelled[k] + 0.5 * may_go);
     // One search is enough: of the one that goes past the others.

@@ -7,7 +7,8 @@
 
 namespace cdem {
 
-// Writes ContactWork::fragment_of_node, fragment, active, broken, movers and changed, and carries travelled and skin over.
+// Writes ContactWork::fragment_of_node, fragment, active, broken, movers and changed. What is known of movers that go on is
+// carried over.
 void find_fragments(const Model&, const State&, ContactWork&);
 
 // m/s, per mover, of its fastest node; of a block that has broken the fastest of its nodes.
@@ -39,6 +40,13 @@ double gone_since(const ContactWork&, int mover_a, int mover_b, const std::array
 // Writes ContactWork::look_at and left of the fragments that have travelled so far; left: 0 for those that have left their
 // skins. True when there is one.
 bool find_leavers(const Model&, ContactWork&);
+
+// Nodes on the surface of a fragment: its search costs as much.
+inline int size_of(const ContactWork& work, int mover) {
+  const int* const begin =
+      &work.movers.node_begin[mover - work.movers.count() + work.movers.node_begin.size() - 1];
+  return begin[1] - begin[0];
+}
 
 // A fragment of a broken block that is more than a single tet.
 inline bool of_several_tets(const Model& model, const ContactWork& work, int mover) {

@@ -27,11 +27,99 @@ struct Surroundings {
   const SearchMargin& margins;
   const ActiveSurface& active;
   const std::vector<Solid>& solids;
-  const SolidGrid &all, &searched; // of tetrahedra
-  const std::vector<char>& is_searched;
-  const std::vector<double>& allowed;      // m, may_still_go
-  double skin = 0, inner = 0, tallest = 0; // m, the thickest skins and the highest tetrahedron of the block
+  // Of tetrahedra: of all, of those of movers that are searched or have new surface, and of those of movers that are searched.
+  const SolidGrid &all, &surfaced, &searched;
+  const std::vector<double>& allowed; // m, may_still_go
+  double skin = 0, inner = 0;         // m, the thickest of the block
+  double tallest = 0,
+         deepest = 0; // m, the highest tetrahedron of the block, and how deep a contact of it may be
+
+  const ContactTriangle& triangle(int place) const {
+    return model.surface.triangles[active.triangles[place]];
+  }
+  // m. What a fragment does relative to itself is not watched: until it leaves its skin.
+  double skins(int a, int b) const {
+    return a == b ? 2 * allowed[a] : work.inner_skin[a] + work.inner_skin[b];
+  }
+  // m, that the rounding of distances and what bonds give may take, of targets of a mover.
+  double slack(int of) const { return 8 * gap(of); }
+  // m, how far apart the sides of a bond that holds may stand: what is between them is inside the mover, and outside its
+  // tetrahedra.
+  double gap(int of) const { return gives_of(model, work, work.movers.block[of], of) * tallest; }
+  // m, from which a triangle of a mover may matter to a semi-spring.
+  double reach(double skins, int of) const { return deepest + 3 * skins + slack(of); }
+  // Triangles of one connected piece may meet only if they were apart in the undeformed body.
+  bool may_meet(int source, int target) const {
+    const int a = active.triangles[source], b = active.triangles[target], mover = work.movers.of_triangle[a];
+    return work.movers.of_triangle[b] != mover ||
+           (!work.movers.one_piece[mover] && apart_at_first(model, work, a, b));
+  }
+  bool may_meet_any(int source, const Solid& solid) const {
+    return std::any_of(solid.triangles.begin(), solid.triangles.end(),
+                       [&](int target) { return target >= 0 && may_meet(source, target); });
+  }
 };
+
+// m, of the semi-springs from a corner, at most.
+double drawn_from(const std::array<Vec3, 4>& x, int corner) {
+  double drawn = 0;
+  for (const Vec3& other : x)
+    drawn = std::max(drawn, 2 * drawn_in * (other - x[corner]).norm());
+  return drawn;
+}
+
+// Whether a semi-spring of one may meet a triangle of the other before the next search.
+bool may_reach(const Surroundings& all, const State& state, const Solid& from, const Solid& to) {
+  if (from.mover == to.mover && std::none_of(from.triangles.begin(), from.triangles.end(), [&](int source) {
+        return source >= 0 && all.may_meet_any(source, to);
+      }))
+    return false;
+  const double reach = all.reach(all.skins(from.mover, to.mover), to.mover);
+  const std::array<Vec3, 4> x = corners_of_tet(all.model, state, from.tet);
+  for (int k = 0; k < 4; ++k)
+    if (to.outside(x[k]) <= reach + drawn_from(x, k))
+      return true;
+  return false;
+}
+
+// Per tetrahedron: what is searched of it, of its triangles the most. Adds to Renewed::sources what is near new surface.
+std::vector<Renewed::Rows> rows_of_solids(const Surroundings& all, const State& state, Renewed& renewed) {
+  using Rows = Renewed::Rows;
+  const auto of_places = [&](const Solid& solid, const auto& visit) {
+    for (const int place : solid.triangles)
+      if (place >= 0)
+        visit(all.active.triangles[place]);
+  };
+  std::vector<Rows> rows(all.solids.size(), Rows::none);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Solid& solid = all.solids[i];
+    if (renewed.movers[solid.mover]) {
+      rows[i] = Rows::all;
+      continue;
+    }
+    bool surfaced = false;
+    of_places(solid, [&](int t) {
+      rows[i] = std::max(rows[i], renewed.sources[t]);
+      surfaced = surfaced || all.work.changed[t] == Change::surface;
+    });
+    if (!surfaced)
+      continue;
+    const std::array<Vec3, 4> x = corners_of_tet(all.model, state, solid.tet);
+    const Vec3 middle = (x[0] + x[1] + x[2] + x[3]) / 4;
+    double radius = 0; // m
+    for (const Vec3& corner : x)
+      radius = std::max(radius, (corner - middle).norm());
+    const double skins =
+        std::max(all.skins(solid.mover, solid.mover), all.work.inner_skin[solid.mover] + all.inner);
+    all.all.each_near(middle, radius + all.reach(skins, solid.mover), [&](int other) {
+      if (rows[other] == Rows::none && may_reach(all, state, all.solids[other], solid))
+        rows[other] = Rows::of_surfaced;
+    });
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    of_places(all.solids[i], [&](int t) { renewed.sources[t] = rows[i]; });
+  return rows;
+}
 
 // What one tetrahedron's semi-springs are near. Those at one of its corners ask for what is near that corner together.
 class NearSolid {
@@ -39,9 +127,11 @@ public:
   explicit NearSolid(const Surroundings& all)
       : all_(all), work_(all.work), seen_(all.solids.size(), -1), met_(all.work.movers.count(), -1) {}
 
-  void add(const State& state, const Solid& own, Pairs& movers) {
+  void add(const State& state, const Solid& own, Renewed::Rows rows, Pairs& movers) {
     mover_ = own.mover;
-    grid_ = all_.is_searched[mover_] ? &all_.all : &all_.searched;
+    grid_ = rows == Renewed::Rows::all           ? &all_.all
+            : rows == Renewed::Rows::of_surfaced ? &all_.surfaced
+                                                 : &all_.searched;
     near_.clear();
     ++own_;
     for (int i = 0; i < 4; ++i) {
@@ -82,20 +172,8 @@ public:
   }
 
 private:
-  const ContactTriangle& triangle(int place) const {
-    return all_.model.surface.triangles[all_.active.triangles[place]];
-  }
-  int mover(int place) const { return work_.movers.of_triangle[all_.active.triangles[place]]; }
   int fragment(int place) const { return work_.fragment[all_.active.triangles[place]]; }
-  // m. What a fragment does relative to itself is not watched: until it leaves its skin.
-  double skins(int of) const {
-    return of == mover_ ? 2 * work_.skin[of] : work_.inner_skin[mover_] + work_.inner_skin[of];
-  }
-  // m, how far apart the sides of a bond that holds may stand: what is between them is inside the mover, and outside its
-  // tetrahedra.
-  double gap(int of) const { return gives_of(all_.model, work_, work_.movers.block[of], of) * all_.tallest; }
-  // m, that the rounding of distances and what bonds give may take, of targets of a mover.
-  double slack(int of) const { return 8 * gap(of); }
+  double skins(int of) const { return all_.skins(mover_, of); }
 
   void add_corner(const Solid& own, int k, const std::array<Vec3, 4>& x) {
     const int node = all_.model.tets[own.tet][k];
@@ -103,7 +181,7 @@ private:
     for (int i = 0; i < 4; ++i) {
       if (own.triangles[i] < 0)
         continue;
-      const geom::Triangle& nodes = triangle(own.triangles[i]).nodes;
+      const geom::Triangle& nodes = all_.triangle(own.triangles[i]).nodes;
       const auto corner = static_cast<int>(std::find(nodes.begin(), nodes.end(), node) - nodes.begin());
       if (corner == 3)
         continue;
@@ -117,16 +195,7 @@ private:
 
   // Fills around_ for all semi-springs at the corner, and near_. What hangs together with the tetrahedron there is left out.
   void find_around(int node, const std::array<Vec3, 4>& x, int k) {
-    const Pairs::const_iterator hanging = work_.first_at_joint(node), end = work_.movers_at_joint.end();
-    const auto hangs = [&](int mover) {
-      for (auto at = hanging; at != end && at->first == hanging->first; ++at)
-        if (at->second == mover)
-          return true;
-      return false;
-    };
-    double drawn = 0; // m, of the semi-springs from the corner, at most
-    for (const Vec3& other : x)
-      drawn = std::max(drawn, 2 * drawn_in * (other - x[k]).norm());
+    const double drawn = drawn_from(x, k);
     around_.clear();
     const double most = 8 * work_.bonds_give[work_.movers.block[mover_]] * all_.tallest + drawn;
     const double reach =
@@ -145,10 +214,12 @@ private:
       const double outside = solid.outside(x[k]) - drawn;
       const double near = all_.allowed[mover_] + all_.allowed[solid.mover];
       if (outside >
-          (both_tets(solid.mover) ? near : std::max(near, 3 * skins(solid.mover) + slack(solid.mover))))
+          (both_tets(solid.mover) ? near : std::max(near, 3 * skins(solid.mover) + all_.slack(solid.mover))))
         return;
       if (!both_tets(solid.mover) &&
-          !(solid.mover != mover_ && hangs(solid.mover))) // else the narrow phase goes by the pair
+          !(solid.mover != mover_ &&
+            work_.hangs_at(node,
+                           work_.movers.fragment[solid.mover]))) // else the narrow phase goes by the pair
         around_.push_back({solid.mover, i, outside});
       if (solid.mover != mover_ && met_[solid.mover] != own_) {
         met_[solid.mover] = own_;
@@ -176,14 +247,15 @@ private:
     const Vec3 spring = weighted(all_.active.facets[source].x, spring_weights(corner));
     for (std::size_t begin = 0, end = 0; begin < around_.size(); begin = end) {
       const int of = around_[begin].mover;
-      const double near = skins(of), close = near + gap(of);
+      const double near = skins(of), close = near + all_.gap(of);
       double least = std::numeric_limits<double>::infinity();
       for (; end < around_.size() && around_[end].mover == of; ++end) {
         if (around_[end].outside > close)
           continue;
         const int solid = around_[end].solid;
         const double outside = all_.solids[solid].outside(spring);
-        if (outside < least && outside <= close && (of != mover_ || may_meet_any(source, solid)))
+        if (outside < least && outside <= close &&
+            (of != mover_ || all_.may_meet_any(source, all_.solids[solid])))
           least = outside;
       }
       if (least > close)
@@ -201,16 +273,16 @@ private:
       // tetrahedra give no distance: behind an edge of the fragment tetrahedra that only touch the edge count as nearer
       // than the one of the triangle behind which the semi-spring is. So triangles are chosen by the distance of one of
       // them: the nearest is no further away.
-      const double nearest = least_distance(spring, begin, end);
-      if (of != mover_ && nearest <= near) {
+      const double nearest = least_distance(source, spring, begin, end);
+      if (nearest <= near) {
         for (std::size_t i = begin; i < end; ++i)
-          if (all_.solids[around_[i].solid].outside(spring) <= nearest + 2 * near + slack(of))
+          if (all_.solids[around_[i].solid].outside(spring) <= nearest + 2 * near + all_.slack(of))
             add_triangles(source, corner, around_[i].solid, targets);
         continue;
       }
       // Further from the surface than the skins.
-      const double deepest = 2 * depth_of(work_, triangle(source)) + near;
-      const double reach = (of == mover_ ? deepest : std::min(nearest, deepest)) + 2 * near + slack(of);
+      const double deepest = 2 * depth_of(work_, all_.triangle(source)) + near;
+      const double reach = std::min(nearest, deepest) + 2 * near + all_.slack(of);
       grid_->each_near(spring, reach, [&](int i) {
         if (all_.solids[i].mover == of && all_.solids[i].outside(spring) <= reach)
           add_triangles(source, corner, i, targets);
@@ -218,28 +290,16 @@ private:
     }
   }
 
-  double least_distance(const Vec3& x, std::size_t begin, std::size_t end) const {
+  double least_distance(int source, const Vec3& x, std::size_t begin, std::size_t end) const {
     double least2 = std::numeric_limits<double>::infinity();
     for (std::size_t i = begin; i < end; ++i)
       for (const int target : all_.solids[around_[i].solid].triangles)
-        if (target >= 0) {
+        if (target >= 0 && all_.may_meet(source, target)) {
           const Corners& y = all_.active.facets[target].x;
           const auto at = geom::nearest_on_triangle(x, y[0], y[1], y[2]);
           least2 = std::min(least2, (weighted(y, at.weights) - x).squaredNorm());
         }
     return std::sqrt(least2);
-  }
-
-  // Triangles of one connected piece may meet only if they were apart in the undeformed body.
-  bool may_meet(int source, int target) const {
-    return mover(target) != mover_ ||
-           (!work_.movers.one_piece[mover_] &&
-            apart_at_first(all_.model, work_, all_.active.triangles[source], all_.active.triangles[target]));
-  }
-  bool may_meet_any(int source, int solid) const {
-    const auto& targets = all_.solids[solid].triangles;
-    return std::any_of(targets.begin(), targets.end(),
-                       [&](int target) { return target >= 0 && may_meet(source, target); });
   }
 
   bool both_tets(int of) const {
@@ -248,7 +308,7 @@ private:
 
   void add_triangles(int source, int corner, int solid, std::vector<Target>& targets) const {
     for (const int target : all_.solids[solid].triangles)
-      if (target >= 0 && may_meet(source, target))
+      if (target >= 0 && all_.may_meet(source, target))
         targets.push_back({target, static_cast<std::uint8_t>(1u << corner)});
   }
 
@@ -311,23 +371,30 @@ private:
 
 NearFragments near_fragments(const Model& model, const State& state, const ContactWork& work,
                              const SearchMargin& margins, const ActiveSurface& active, int block,
-                             const std::vector<char>& searched, int threads) {
+                             Renewed& renewed, int threads) {
   const std::vector<Solid> solids = solids_of(model, state, work, active, block);
-  std::vector<int> all, of_searched;
-  double skin = 0, inner = 0, tallest = 0;
+  std::vector<int> all, of_surfaced, of_searched;
+  double skin = 0, inner = 0, tallest = 0, deepest = 0;
   for (int i = 0; i < static_cast<int>(solids.size()); ++i) {
     all.push_back(i);
-    if (searched[solids[i].mover])
+    if (renewed.movers[solids[i].mover] || renewed.surfaced[solids[i].mover])
+      of_surfaced.push_back(i);
+    if (renewed.movers[solids[i].mover])
       of_searched.push_back(i);
     skin = std::max(skin, margins.allowed()[solids[i].mover]);
     inner = std::max(inner, work.inner_skin[solids[i].mover]);
   }
-  for (int i = active.block_begin[block]; i < active.block_begin[block + 1]; ++i)
-    tallest = std::max(tallest, model.surface.triangles[active.triangles[i]].height);
-  const SolidGrid grid(model, state, solids, all), grid_of_searched(model, state, solids, of_searched);
+  for (int i = active.block_begin[block]; i < active.block_begin[block + 1]; ++i) {
+    const ContactTriangle& triangle = model.surface.triangles[active.triangles[i]];
+    tallest = std::max(tallest, triangle.height);
+    deepest = std::max(deepest, 2 * depth_of(work, triangle));
+  }
+  const SolidGrid grid(model, state, solids, all), grid_of_surfaced(model, state, solids, of_surfaced),
+      grid_of_searched(model, state, solids, of_searched);
   const Surroundings around{
-      model, work,  margins, active, solids, grid, grid_of_searched, searched, margins.allowed(),
-      skin,  inner, tallest};
+      model, work,  margins, active, solids, grid, grid_of_surfaced, grid_of_searched, margins.allowed(),
+      skin,  inner, tallest, deepest};
+  const std::vector<Renewed::Rows> rows = rows_of_solids(around, state, renewed);
   constexpr std::int64_t solids_per_chunk = 64;
   const std::vector<Range> chunks = split(static_cast<std::int64_t>(solids.size()), solids_per_chunk);
   std::vector<Pairs> movers(chunks.size());
@@ -335,13 +402,13 @@ NearFragments near_fragments(const Model& model, const State& state, const Conta
   found.springs.resize(chunks.size());
   std::vector<double> loads(chunks.size(), 0.0);
   for (std::size_t i = 0; i < solids.size(); ++i)
-    loads[i / solids_per_chunk] += searched[solids[i].mover] ? 1 : load_of_known;
+    loads[i / solids_per_chunk] += rows[i] != Renewed::Rows::none ? 1 : load_of_known;
   const std::vector<std::int64_t> own = own_share(work, loads);
   for_chunks(static_cast<std::int64_t>(own.size()), threads, [&](std::int64_t k) {
     const std::int64_t c = own[k];
     NearSolid near(around);
     for (std::int64_t i = chunks[c].begin; i < chunks[c].end; ++i)
-      near.add(state, solids[i], movers[c]);
+      near.add(state, solids[i], rows[i], movers[c]);
     found.springs[c] = near.springs(state);
   });
   std::vector<std::vector<int>> others(work.movers.count()); // of which the number is higher

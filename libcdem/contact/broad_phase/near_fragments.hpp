@@ -6,6 +6,7 @@
 #pragma once
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
+#include "libcdem/contact/broad_phase/renewed.hpp"
 
 namespace cdem {
 
@@ -14,8 +15,9 @@ struct NearFragments {
   Pairs movers;                           // within the skins, of each pair the lower one first, sorted
 };
 
-// Only pairs in which at least one mover is `searched` (per mover), for the tetrahedra of this rank's share.
+// Only pairs in which at least one mover or the source is searched, for the tetrahedra of this rank's share. Adds to
+// Renewed::sources what is near new surface.
 NearFragments near_fragments(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                             const ActiveSurface&, int block, const std::vector<char>& searched, int threads);
+                             const ActiveSurface&, int block, Renewed&, int threads);
 
 } // namespace cdem

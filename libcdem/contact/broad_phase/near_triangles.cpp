@@ -68,9 +68,11 @@ void look(const Model& model, const ContactWork& work, const ActiveSurface& acti
   const double further = 2 * skins.between(one, other);
   around = grown(around, further);
   std::vector<int> targets = inside(active, other, by_other, around);
-  const auto known = [&](int i) { return !active.searched[i]; };
-  if (!skins.of_pair() && std::all_of(sources.begin(), sources.end(), known))
-    targets.erase(std::remove_if(targets.begin(), targets.end(), known), targets.end());
+  if (!skins.of_pair() &&
+      std::none_of(sources.begin(), sources.end(), [&](int i) { return active.source_searched[i] != 0; }))
+    targets.erase(
+        std::remove_if(targets.begin(), targets.end(), [&](int i) { return !active.target_searched[i]; }),
+        targets.end());
   each_meeting(boxes_of(active, sources, by_one), further, boxes_of(active, targets, by_other),
                [&](std::size_t i, std::size_t j) { pairs.emplace_back(sources[i], targets[j]); });
 }

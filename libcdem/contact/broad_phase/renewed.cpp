@@ -2,10 +2,73 @@
 
 #include "libcdem/contact/broad_phase/movers.hpp"
 
+#include "libcdem/ranks/bytes.hpp"
+#include "libcdem/ranks/shared_state.hpp"
+
 #include <algorithm>
 
 namespace cdem {
-Renewed movers_to_search(const Model& model, const ContactWork& work, bool all) {
+namespace {
+
+// New surface over the size of a fragment: with more of it the whole is searched, which then costs less than what is around.
+constexpr double most_new_surface = 1 / 16.;
+
+// Writes Renewed::sources and surfaced. Rows of what has changed that stay are looked at.
+void find_changed(const Model& model, ContactWork& work, Renewed& renewed) {
+  const std::vector<ContactTriangle>& triangles = model.surface.triangles;
+  renewed.sources.assign(triangles.size(), Renewed::Rows::none);
+  renewed.surfaced.assign(work.movers.count(), 0);
+  const auto changed = [&](int t) { return work.changed[t] != Change::none; };
+  std::vector<int> surfaced(work.movers.count(), 0); // triangles
+  bool any = false;
+  for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
+    if (changed(t)) {
+      any = renewed.blocks[triangles[t].block] = 1;
+      if (work.changed[t] >= Change::joint)
+        renewed.sources[t] = Renewed::Rows::all;
+      if (work.changed[t] == Change::surface)
+        ++surfaced[work.movers.of_triangle[t]];
+    }
+  for (int m = 0; m < work.movers.count(); ++m)
+    if (surfaced[m] > 0) {
+      renewed.surfaced[m] = 1;
+      if (surfaced[m] > most_new_surface * size_of(work, m))
+        renewed.movers[m] = 1;
+    }
+  if (!any)
+    return;
+  std::vector<int> mixed; // sources of rows kept here whose targets are of one fragment no more
+  for (ContactRow& row : work.rows[Contact::spring]) {
+    const ContactCandidate* const first = work.candidates[Contact::spring].data() + row.begin;
+    const auto any_target = [&](const auto& which) {
+      return std::any_of(first, first + row.count,
+                         [&](const ContactCandidate& c) { return which(static_cast<int>(c.target)); });
+    };
+    if (row.pair >= 0 || !(changed(row.source) || any_target(changed)))
+      continue;
+    row.recheck_distance = row.allowed = row.reach = 0;
+    if (any_target([&](int t) { return work.fragment[t] != work.fragment[first->target]; }))
+      mixed.push_back(row.source);
+  }
+  const auto add = [&](const std::vector<int>& sources) {
+    for (const int source : sources)
+      renewed.sources[source] = std::max(renewed.sources[source], Renewed::Rows::of_surfaced);
+  };
+  add(mixed);
+  if (!work.shared)
+    return;
+  Pack pack;
+  pack(mixed);
+  for (const std::string& heard : ranks().gather(pack.text())) {
+    Unpack unpack(heard);
+    unpack(mixed);
+    add(mixed);
+  }
+}
+
+} // namespace
+
+Renewed movers_to_search(const Model& model, ContactWork& work, bool all) {
   Renewed renewed;
   renewed.all = all;
   renewed.movers.assign(work.movers.count(), static_cast<char>(all));
@@ -17,18 +80,31 @@ Renewed movers_to_search(const Model& model, const ContactWork& work, bool all) 
       return work.left[m] < searched_with_others ||
              gone_at_most(model, work, m) > (1 - searched_with_others) * work.skin[m];
     };
-    if (!all && m >= blocks && (work.changed[m] || work.search_of[m] == 0 || soon_due()))
+    if (!all && m >= blocks && (work.search_of[m] == 0 || soon_due()))
       renewed.movers[m] = renewed.blocks[block] = 1;
   }
+  find_changed(model, work, renewed);
   return renewed;
 }
 
-void edges_to_search(const ContactWork& work, const std::vector<ContactEdge>& before, bool fragments_due,
-                     Renewed& renewed) {
+void edges_to_search(const Model& model, const ContactWork& work, const std::vector<ContactEdge>& before,
+                     bool fragments_due, Renewed& renewed) {
+  const ContactSurface& s = model.surface;
+  std::vector<char> changed_at(model.node_position.size(), 0); // per original node
+  for (std::size_t t = 0; t < s.triangles.size(); ++t)
+    for (const int node : s.triangles[t].nodes)
+      if (work.changed[t] != Change::none)
+        changed_at[s.original[node]] = 1;
   renewed.edges.assign(work.edges.size(), 0);
-  for (std::size_t e = 0; e < work.edges.size(); ++e)
-    for (const int t : work.edges[e].triangles)
-      renewed.edges[e] = static_cast<char>(renewed.edges[e] | renewed.movers[work.movers.of_triangle[t]]);
+  for (std::size_t e = 0; e < work.edges.size(); ++e) {
+    const ContactEdge& edge = work.edges[e];
+    const auto searched = [&](int t) { return renewed.movers[work.movers.of_triangle[t]] != 0; };
+    const auto changed = [&](int node) {
+      return work.broken[s.triangles[edge.triangles[0]].block] && changed_at[s.original[node]];
+    };
+    renewed.edges[e] = static_cast<char>(searched(edge.triangles[0]) || searched(edge.triangles[1]) ||
+                                         changed(edge.nodes[0]) || changed(edge.nodes[1]));
+  }
   if (!fragments_due)
     return;
   const auto same = [](const ContactEdge& a, const ContactEdge& b) {
@@ -65,16 +141,13 @@ void keep_near_movers(const Model& model, const Pairs& pairs, const std::vector<
       work.past_others[m] = 0;
       work.look_at[m] = 0.5 * work.skin[m];
     }
-  std::vector<int> label(work.movers.count(), -1);
-  for (int node = 0; node < static_cast<int>(work.movers.of_fragment.size()); ++node)
-    if (work.movers.of_fragment[node] >= 0)
-      label[work.movers.of_fragment[node]] = node;
   for (const auto& [a, b] : pairs)
     for (const auto& [m, other] : {std::pair(a, b), std::pair(b, a)}) {
       NearMover near;
-      near.fragment = label[other];
+      near.fragment = work.movers.fragment[other];
       near.search = search;
       near.may_go = rounded_down(work.inner_skin[m] + work.inner_skin[other]);
+      near.travelled = work.travelled[m] + work.travelled[other];
       near.swings = static_cast<float>(work.swing[m] + work.swing[other]);
       for (int axis = 0; axis < 3; ++axis)
         near.drifts[axis] = static_cast<float>(work.drift[other][axis] - work.drift[m][axis]);

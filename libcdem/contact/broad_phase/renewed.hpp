@@ -1,4 +1,5 @@
-// What a search renews: the fragments that are new or have moved out of their skins. Everything else stays as it was found.
+// What a search renews: the fragments that are new or have moved out of their skins; of those on which faces have broken,
+// what stands around these. Everything else stays as it was found.
 #pragma once
 
 #include "libcdem/contact/broad_phase/near_triangles.hpp"
@@ -9,8 +10,13 @@ namespace cdem {
 struct Renewed {
   bool all = true;          // movers; but rigid pairs may keep their rows
   std::vector<char> movers; // per mover
-  std::vector<char> blocks; // per block: one of its movers
-  std::vector<char> edges;  // per edge: of such a mover, or new
+  std::vector<char> blocks; // per block: one of its movers, or something on it
+  // Per mover: new surface of it has opened, and so rows of other blocks with it. Per triangle: rows of its semi-springs with
+  // targets of its own block.
+  enum class Rows : char { none, of_surfaced, all };
+  std::vector<char> surfaced;
+  std::vector<Rows> sources;
+  std::vector<char> edges; // per edge: of such a mover, new, or where something has changed
   // Per edge as it was numbered before, its number now; -1: it is no more. Empty: as before.
   std::vector<int> edge_now;
   // Per rigid pair as it was numbered before, its number now; -1: its rows are found anew.
@@ -20,11 +26,12 @@ struct Renewed {
 // Share of a skin: a fragment with less left is searched with the first that leaves its own.
 inline constexpr double searched_with_others = 0.6;
 
-// Those that are new, and those that have left their skins or soon will; or all.
-Renewed movers_to_search(const Model&, const ContactWork&, bool all);
+// Movers that are new, and those that have left their skins or soon will, or all; and sources that may meet what they could
+// not before, or whose targets are of one fragment no more. Other rows of what has changed are looked at in this step.
+Renewed movers_to_search(const Model&, ContactWork&, bool all);
 // Writes Renewed::edges and edge_now. before: the edges by the numbers they had.
-void edges_to_search(const ContactWork&, const std::vector<ContactEdge>& before, bool fragments_due,
-                     Renewed&);
+void edges_to_search(const Model&, const ContactWork&, const std::vector<ContactEdge>& before,
+                     bool fragments_due, Renewed&);
 
 // Writes ContactWork::near, search_of, left, look_at and past_others of the fragments that were searched, and of those near
 // them. pairs: of movers.

@@ -93,7 +93,8 @@ private:
     const auto is_renewed = [&](int target) { return !of_pair && this->is_renewed(target); };
     if (kind_ == Contact::spring) { // all its targets are of one fragment
       const ContactCandidate* const first = candidates.data() + row.begin;
-      if (!is_renewed(static_cast<int>(first->target)))
+      const auto target = static_cast<int>(first->target);
+      if (!is_renewed(target) && (of_pair || !changes(row.source, target)))
         kept_.assign(first, first + row.count);
       return !kept_.empty();
     }
@@ -109,6 +110,13 @@ private:
         kept_.push_back(candidate);
     }
     return !kept_.empty();
+  }
+  // A row of semi-springs of which neither mover is searched.
+  bool changes(int source, int target) const {
+    return surface_.triangles[source].block == block(static_cast<std::uint32_t>(target))
+               ? renewed_.sources[source] == Renewed::Rows::all ||
+                     (renewed_.sources[source] != Renewed::Rows::none && renewed_.surfaced[mover(target)])
+               : work_.changed[source] >= Change::joint || renewed_.surfaced[mover(target)];
   }
   bool is_renewed(int i) const {
     return renewed_.movers[mover(i)] || (kind_ == Contact::edge && renewed_.edges[i]);
@@ -132,9 +140,10 @@ private:
     const int own = mover(source), other = mover(static_cast<int>(found_[first].target));
     row.pair = number_of(work_.rigid_pairs, own, other);
     if (kind_ == Contact::edge)
-      row.reach = static_cast<float>(
-          margins_.known(surface_.triangles[source_triangle(source)].block, row.block) +
-          (row.pair >= 0 ? work_.rigid_pairs[row.pair].skin : work_.skin[own] + work_.skin[other]));
+      row.reach =
+          static_cast<float>(margins_.known(surface_.triangles[source_triangle(source)].block, row.block) +
+                             (row.pair >= 0 ? work_.rigid_pairs[row.pair].skin
+                                            : margins_.allowed()[own] + margins_.allowed()[other]));
     place(row, &found_[first], end - first);
     return end;
   }

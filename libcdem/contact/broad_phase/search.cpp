@@ -142,8 +142,9 @@ void leave_out_known(const ContactWork& work, const ActiveSurface& active, const
   const auto known = [&](int place) {
     const int t = active.triangles[place];
     const auto edges = renewed.edges.begin();
-    return !active.searched[place] && std::find(edges + work.edge_begin[t], edges + work.edge_begin[t + 1],
-                                                1) == edges + work.edge_begin[t + 1];
+    return !active.source_searched[place] && !active.target_searched[place] &&
+           std::find(edges + work.edge_begin[t], edges + work.edge_begin[t + 1], 1) ==
+               edges + work.edge_begin[t + 1];
   };
   std::vector<int>& of_searched = renewed.blocks[part.block_a] ? part.of_a : part.of_b;
   of_searched.erase(std::remove_if(of_searched.begin(), of_searched.end(), known), of_searched.end());
@@ -154,9 +155,11 @@ void leave_out_known(const ActiveSurface& active, const Renewed& renewed, Pairs&
                      std::vector<Near>& edges) {
   if (renewed.all)
     return;
-  const auto known = [&](int place) { return !active.searched[place]; };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                             [&](const auto& pair) { return known(pair.first) && known(pair.second); }),
+                             [&](const auto& pair) {
+                               return !active.source_searched[pair.first] &&
+                                      !active.target_searched[pair.second];
+                             }),
               pairs.end());
   edges.erase(std::remove_if(edges.begin(), edges.end(),
                              [&](const Near& near) {
@@ -208,10 +211,10 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   Renewed renewed = movers_to_search(model, work,
                                      work.blocks_due || work.all_due || work.searches == 0 ||
                                          (fragments_due && fragments_only));
-  edges_to_search(work, edges_before, fragments_due, renewed);
+  edges_to_search(model, work, edges_before, fragments_due, renewed);
   const std::vector<double> pace = choose_skins(model, state, work, renewed.movers, renewed.all);
   const SearchMargin margins(model, state, work, renewed.movers);
-  const ActiveSurface active = active_surface(model, state, work, margins, renewed.movers, threads);
+  const ActiveSurface active = active_surface(model, state, work, margins, renewed, threads);
   if (!active.finite())
     return false;
   std::vector<char> has_surface;
@@ -298,7 +301,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   }
   for (const int block : shattered) {
     found.edges.push_back(near_edges_of_fragments(model, state, work, margins, block, renewed.edges));
-    NearFragments near = near_fragments(model, state, work, margins, active, block, renewed.movers, threads);
+    NearFragments near = near_fragments(model, state, work, margins, active, block, renewed, threads);
     for (std::vector<Near>& part : near.springs)
       found.springs.push_back(std::move(part));
     found.movers.insert(found.movers.end(), near.movers.begin(), near.movers.end());

@@ -66,7 +66,10 @@ void keep_tet_pairs(const Model& model, const std::vector<char>& searched, Pairs
       std::stable_partition(pairs.begin(), pairs.end(), [&](const std::pair<int, int>& pair) {
         return !is_single_tet(model, work, pair.first) || !is_single_tet(model, work, pair.second);
       });
-  Pairs found(of_tets, pairs.end());
+  Pairs found;
+  std::copy_if(of_tets, pairs.end(), std::back_inserter(found), [&](const std::pair<int, int>& pair) {
+    return searched[pair.first] || searched[pair.second]; // others are known
+  });
   if (!std::is_sorted(found.begin(), found.end()))
     std::sort(found.begin(), found.end());
   pairs.erase(of_tets, pairs.end());

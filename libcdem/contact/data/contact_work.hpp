@@ -74,11 +74,20 @@ struct ContactRow {
   std::array<int, 3> known_target{-1, -1, -1};
 };
 
+// What is not as it was when fragments were told apart before, of a triangle: each holds what stands before it.
+enum class Change : char {
+  none,
+  fragment, // or who holds its face: springs or contact
+  joint,    // what it hung together with at a corner does so no more, and may be met there
+  surface   // it was not active
+};
+
 // What movers there are. Those of blocks come first and have the numbers of their blocks.
 struct Movers {
   std::vector<int>
       of_triangle; // of each triangle that takes part: its block, or its fragment where faces have broken
   std::vector<int> block;       // per mover
+  std::vector<int> fragment;    // per mover, its smallest node; -1: a block
   std::vector<int> of_fragment; // by its smallest node; -1: none
   std::vector<int> node_begin,
       nodes; // per fragment, from the first after the blocks on: the nodes of its triangles
@@ -149,6 +158,7 @@ struct NearMover {
   float may_go = 0; // m, relative to each other since then, before their rows are to be found anew
   float swings = 0; // m, then
   std::array<float, 3> drifts{};
+  double travelled = 0; // m, then, by both
 };
 
 // Rows of rigid pairs, those of one pair side by side.
@@ -182,17 +192,13 @@ struct ContactWork {
   // the surface of what has broken is closed.
   std::vector<int> fragment_of_node, fragment;
   // Joints of nodes of cohesive bodies: the copies of a node whose tetrahedra hang together there, over faces that have not
-  // lost all their strength. Per node, the smallest of them; empty where nothing has cracked. And which movers hang together
-  // at each: (joint, mover), sorted. Where they do, nothing of one is in contact with the other.
+  // lost all their strength. Per node, the smallest of them; empty where nothing has cracked. And which fragments hang
+  // together at each: (joint, fragment), sorted. Where they do, nothing of one is in contact with the other.
   std::vector<int> joint;
-  std::vector<std::pair<int, int>> movers_at_joint;
-  std::vector<std::pair<int, int>>::const_iterator
-  first_at_joint(int node) const { // of movers_at_joint; its end: none
-    if (joint.empty())
-      return movers_at_joint.end();
-    const auto first =
-        std::lower_bound(movers_at_joint.begin(), movers_at_joint.end(), std::pair(joint[node], 0));
-    return first != movers_at_joint.end() && first->first == joint[node] ? first : movers_at_joint.end();
+  std::vector<std::pair<int, int>> fragments_at_joint;
+  bool hangs_at(int node, int of_fragment) const {
+    return !joint.empty() && std::binary_search(fragments_at_joint.begin(), fragments_at_joint.end(),
+                                                std::pair(joint[node], of_fragment));
   }
   std::vector<char>
       active; // per triangle: 1 outside, or its face has a broken bond; 2 its face is left to contact; else 0
@@ -203,7 +209,8 @@ struct ContactWork {
   std::vector<int> neighbours;                 // mesh_neighbours; empty before any block has broken
   std::vector<std::array<int, 4>> tets_beyond; // TetsBeyond, per tet of the mesh, by face (geom::tet_faces)
   Movers movers;
-  std::vector<char> changed;      // per mover: fragments were told apart for this look, and it is a new one
+  // Per triangle, where fragments were told apart for this look: its contacts may begin at any depth.
+  std::vector<Change> changed;
   std::vector<char> broken;       // per block: some of its faces have
   std::vector<ContactEdge> edges; // of surfaces as they are now, by id
   std::vector<int> edge_begin;    // (n_triangles + 1) into edges, by their first triangle

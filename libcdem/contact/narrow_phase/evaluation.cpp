@@ -258,8 +258,9 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
 
 // What is deep and was no contact before has come there by no motion, as at the mouth of a crack. Steps with some asleep do
 // not see it: it would begin where a search happens to be.
-double Evaluation::begins_at(int source_mover, int mover, double shallow) const {
-  const bool any_depth = work_.any_depth_begins || work_.changed[source_mover] || work_.changed[mover];
+double Evaluation::begins_at(int source, int target, double shallow) const {
+  const bool any_depth = work_.any_depth_begins || work_.changed[source] != Change::none ||
+                         work_.changed[target] != Change::none;
   return any_depth ? std::numeric_limits<double>::infinity() : shallow;
 }
 
@@ -325,7 +326,7 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       continue;
     }
     if (add_contact(row.source, corner, spring[corner], work_.fragment[found.target], found,
-                    begins_at(row.source_mover, row.mover, shallow))) {
+                    begins_at(row.source, found.target, shallow))) {
       deepest2 = std::max(deepest2, found.distance2);
       sleeps = 0;
     } else {

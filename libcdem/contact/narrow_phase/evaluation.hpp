@@ -49,7 +49,7 @@ private:
   void go_to(int source); // what stood at it before
   const Contact* before(const Contact&) const;
   // m, as `begins` of add_contact: infinite where what is found may have been there unseen.
-  double begins_at(int source_mover, int mover, double shallow) const;
+  double begins_at(int source, int target, double shallow) const;
   double narrow_phase(ContactRow&, ContactCandidate*, bool all); // returns how deep the deepest is, m
   using Springs = std::array<geom::Vec3, 3>;                     // where the three of a source are, m
   // All of them stand outside a fragment that is a single tet, or outside the other block of a rigid pair, and so they
@@ -57,7 +57,7 @@ private:
   bool stand_outside(ContactRow&, const Springs&);
   // heights: m, over the planes of the other's triangles, of the source's nodes.
   double springs_of_tet(int source_mover, int mover, const std::array<std::array<double, 4>, 4>& heights);
-  double spring_in_tet(int source_mover, int mover, int source, int corner, int known);
+  double spring_in_tet(int mover, int source, int corner, int known);
   // The nearest places of one fragment to them, of all targets that do not sleep.
   void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);
   Nearest nearest_on(int target, const geom::Vec3& spring, double gives);

@@ -120,15 +120,14 @@ double Evaluation::springs_of_tet(int source_mover, int mover,
       }
       const auto nearest = static_cast<int>(std::find(here.begin(), here.end(), most) - here.begin());
       const bool known = !all && most < 0 && less_rounding(most - most_without(nearest), to.height) > 0;
-      until = std::min(
-          until, spring_in_tet(source_mover, mover, source, corner, known ? to.triangles[nearest] : -1));
+      until = std::min(until, spring_in_tet(mover, source, corner, known ? to.triangles[nearest] : -1));
     }
   }
   return until;
 }
 
 // known: the nearest triangle; -1: it is to be found.
-double Evaluation::spring_in_tet(int source_mover, int mover, int source, int corner, int known) {
+double Evaluation::spring_in_tet(int mover, int source, int corner, int known) {
   const ContactTriangle& from = surface_.triangles[source];
   const geom::Vec3 spring = weighted(corners_of(model_, state_, from.nodes), spring_weights(corner));
   Nearest found;
@@ -151,7 +150,7 @@ double Evaluation::spring_in_tet(int source_mover, int mover, int source, int co
     return waits;
   old_ = state_.contacts.begin() + work_.tet_pairs->contact_begin[source];
   return add_contact(source, corner, spring, work_.fragment[found.target], found,
-                     begins_at(source_mover, mover, shallow))
+                     begins_at(source, found.target, shallow))
              ? 0
              : waits;
 }
