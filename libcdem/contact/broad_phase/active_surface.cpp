@@ -92,11 +92,11 @@ void choose_skins_of_blocks(const Model& model, const State& state, const std::v
 } // namespace
 
 std::vector<double> choose_skins(const Model& model, const State& state, ContactWork& work,
-                                 const std::vector<char>& searched, bool all) {
+                                 const Renewed& renewed) {
   std::vector<double> pace = speeds_of_movers(model, state, work, 1); // m/s, then m in a step
   for (double& of_mover : pace)
     of_mover *= work.last_step;
-  if (all)
+  if (renewed.all)
     choose_skins_of_blocks(model, state, pace, work);
   const auto blocks = static_cast<int>(model.blocks.size());
   for (int b = 0; b < blocks; ++b)
@@ -106,14 +106,14 @@ std::vector<double> choose_skins(const Model& model, const State& state, Contact
   for (int m = blocks; m < work.movers.count(); ++m)
     mean += pace[m] / (work.movers.count() - blocks);
   for (int m = blocks; m < work.movers.count(); ++m) {
-    if (searched[m]) {
-      const auto within = [&](double steps) {
-        return std::clamp(steps * std::max(pace[m], mean), thinnest_skin * work.usual_height,
-                          thickest_skin * work.usual_height);
-      };
-      work.skin[m] = within(steps_of_fragments);
-      work.inner_skin[m] = within(steps_relative);
-    }
+    const auto way = [&](double steps) {
+      return std::clamp(steps * std::max(pace[m], mean), thinnest_skin * work.usual_height,
+                        thickest_skin * work.usual_height);
+    };
+    if (renewed.within[m])
+      work.skin[m] = way(steps_of_fragments);
+    if (renewed.movers[m])
+      work.inner_skin[m] = way(steps_relative);
     double& most = work.skin[work.movers.block[m]];
     most = std::max(most, work.skin[m]);
   }
@@ -129,12 +129,12 @@ double far_at_first(const ContactWork& work, const ContactTriangle& t) {
 }
 
 SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work,
-                           const std::vector<char>& searched)
+                           const Renewed& renewed)
     : surface_(model.surface), work_(work), whole_(work.broken), deepest_(model.blocks.size(), 0.0),
       at_least_(model.blocks.size()), allowed_(work.skin) {
   // A fragment stays within its skin around where it was searched, and may go back all the way through that place.
   for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m)
-    if (!searched[m])
+    if (!renewed.within[m])
       allowed_[m] += gone_at_most(model, work, m);
   for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m) {
     double& most = allowed_[work.movers.block[m]]; // of a block the most of its fragments

@@ -11,9 +11,8 @@ namespace cdem {
 struct Renewed; // broad_phase/renewed.hpp
 
 // Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself. Movers are
-// known; those that are searched (per mover); all: of all. Returns how far each mover moves in a step, m.
-std::vector<double> choose_skins(const Model&, const State&, ContactWork&, const std::vector<char>& searched,
-                                 bool all);
+// known; those that are searched. Returns how far each mover moves in a step, m.
+std::vector<double> choose_skins(const Model&, const State&, ContactWork&, const Renewed&);
 
 // m, how far two movers may move before they are searched again: each by its own skin, or both together by that of a rigid
 // pair, of which each has half.
@@ -42,8 +41,7 @@ double far_at_first(const ContactWork&, const ContactTriangle&);
 // Largest depth of a contact between two blocks for which the search allows, m.
 class SearchMargin {
 public:
-  // searched: per mover, those of which the skin counts from now on.
-  SearchMargin(const Model&, const State&, const ContactWork&, const std::vector<char>& searched);
+  SearchMargin(const Model&, const State&, const ContactWork&, const Renewed&);
 
   // m, per mover: no node of it goes further from where it is now before it is searched next.
   const std::vector<double>& allowed() const { return allowed_; }

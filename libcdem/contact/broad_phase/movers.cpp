@@ -1,6 +1,7 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 
 #include "libcdem/bond/fragments.hpp"
+#include "libcdem/contact/broad_phase/renewed.hpp"
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/ranks/bytes.hpp"
@@ -238,6 +239,7 @@ void carry_over(const Model& model, const State& state, ContactWork& before, Con
   carry(&ContactWork::left);
   carry(&ContactWork::past_others);
   carry(&ContactWork::swing);
+  carry(&ContactWork::gone_before);
   work.drift.assign(work.movers.count(), geom::Vec3::Zero());
   for (int m = 0; m < work.movers.count(); ++m)
     if (old[m] >= 0 && old[m] < static_cast<int>(before.drift.size()))
@@ -265,6 +267,7 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   std::swap(before.left, work.left);
   std::swap(before.past_others, work.past_others);
   std::swap(before.swing, work.swing);
+  std::swap(before.gone_before, work.gone_before);
   std::swap(before.drift, work.drift);
   work.fragment_of_node = fragments_of_nodes(model, state, Joins::told);
   work.fragment.resize(s.triangles.size());
@@ -355,6 +358,7 @@ void set_drifts(const Model& model, const State& state, ContactWork& work, int t
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
   work.drift.resize(movers.count(), geom::Vec3::Zero());
   work.swing.resize(movers.count());
+  work.gone_before.resize(movers.count());
   for_chunks(movers.count() - blocks, threads, [&](std::int64_t fragment) {
     if (work.shared && rank_of_fragment(work, fragment) != work.shared->part().rank)
       return;
@@ -376,16 +380,19 @@ void set_drifts(const Model& model, const State& state, ContactWork& work, int t
     share_drifts(blocks, work);
 }
 
-void begin_drifts(const Model& model, const State& state, const std::vector<char>& searched,
-                  ContactWork& work) {
+void begin_drifts(const Model& model, const State& state, const Renewed& renewed, ContactWork& work) {
   const Movers& movers = work.movers;
   const auto blocks = static_cast<int>(model.blocks.size());
   if (movers.count() > blocks)
     work.at_search.resize(model.node_position.size(), geom::Vec3::Zero());
-  for (int m = blocks; m < movers.count(); ++m)
-    if (searched[m])
-      for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
-        work.at_search[movers.nodes[i]] = vec(state.displacement[movers.nodes[i]]);
+  work.gone_before.resize(movers.count());
+  for (int m = blocks; m < movers.count(); ++m) {
+    if (!renewed.movers[m])
+      continue;
+    work.gone_before[m] = renewed.within[m] ? 0 : gone_at_most(model, work, m);
+    for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
+      work.at_search[movers.nodes[i]] = vec(state.displacement[movers.nodes[i]]);
+  }
 }
 
 double gone_since(const ContactWork& work, int a, int b, const std::array<float, 3>& drifts, float swings) {

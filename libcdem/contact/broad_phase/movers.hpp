@@ -7,6 +7,8 @@
 
 namespace cdem {
 
+struct Renewed; // broad_phase/renewed.hpp
+
 // Writes ContactWork::fragment_of_node, fragment, active, broken, movers and changed. What is known of movers that go on is
 // carried over.
 void find_fragments(const Model&, const State&, ContactWork&);
@@ -21,15 +23,16 @@ void set_displacements(const Model&, const State&, ContactWork&, int threads);
 // blocks on.
 int rank_of_fragment(const ContactWork&, std::int64_t fragment);
 
-// Writes ContactWork::drift and swing; begin_drifts: at_search, of those that are searched (per mover).
+// Writes ContactWork::drift and swing; begin_drifts: at_search and gone_before, of those that are searched.
 void set_drifts(const Model&, const State&, ContactWork&, int threads);
-void begin_drifts(const Model&, const State&, const std::vector<char>& searched, ContactWork&);
+void begin_drifts(const Model&, const State&, const Renewed&, ContactWork&);
 
-// m, upper bound of the distance of a mover's nodes from their positions at its search. For a fragment it is less than
-// the distance that it has travelled, since a piece that trembles stays in place.
+// m, upper bound of the distance of a mover's nodes from their positions at its search, with itself too. For a fragment it is
+// less than the distance that it has travelled, since a piece that trembles stays in place.
 inline double gone_at_most(const Model& model, const ContactWork& work, int mover) {
-  return mover < static_cast<int>(model.blocks.size()) ? work.travelled[mover]
-                                                       : work.drift[mover].norm() + work.swing[mover];
+  return mover < static_cast<int>(model.blocks.size())
+             ? work.travelled[mover]
+             : work.gone_before[mover] + work.drift[mover].norm() + work.swing[mover];
 }
 
 // m, at most, that places of two fragments have gone relative to each other since the difference of their drifts and the

@@ -27,6 +27,7 @@ struct Surroundings {
   const SearchMargin& margins;
   const ActiveSurface& active;
   const std::vector<Solid>& solids;
+  const std::vector<int>& mover_of; // per solid: read more often than all else of it
   // Of tetrahedra: of all, of those of movers that are searched or have new surface, and of those of movers that are searched.
   const SolidGrid &all, &surfaced, &searched;
   const std::vector<double>& allowed; // m, may_still_go
@@ -46,8 +47,11 @@ struct Surroundings {
   // m, how far apart the sides of a bond that holds may stand: what is between them is inside the mover, and outside its
   // tetrahedra.
   double gap(int of) const { return gives_of(model, work, work.movers.block[of], of) * tallest; }
-  // m, from which a triangle of a mover may matter to a semi-spring.
-  double reach(double skins, int of) const { return deepest + 3 * skins + slack(of); }
+  // m, from which a triangle of b may matter to a semi-spring of a; b: -1: of any mover, and the same the other way round.
+  double reach(int a, int b) const {
+    const double near = b < 0 ? std::max(skins(a, a), work.inner_skin[a] + inner) : skins(a, b);
+    return deepest + std::max(3 * near, allowed[a] + (b < 0 ? skin : allowed[b])) + slack(b < 0 ? a : b);
+  }
   // Triangles of one connected piece may meet only if they were apart in the undeformed body.
   bool may_meet(int source, int target) const {
     const int a = active.triangles[source], b = active.triangles[target], mover = work.movers.of_triangle[a];
@@ -74,7 +78,7 @@ bool may_reach(const Surroundings& all, const State& state, const Solid& from, c
         return source >= 0 && all.may_meet_any(source, to);
       }))
     return false;
-  const double reach = all.reach(all.skins(from.mover, to.mover), to.mover);
+  const double reach = all.reach(from.mover, to.mover);
   const std::array<Vec3, 4> x = corners_of_tet(all.model, state, from.tet);
   for (int k = 0; k < 4; ++k)
     if (to.outside(x[k]) <= reach + drawn_from(x, k))
@@ -82,7 +86,7 @@ bool may_reach(const Surroundings& all, const State& state, const Solid& from, c
   return false;
 }
 
-// Per tetrahedron: what is searched of it, of its triangles the most. Adds to Renewed::sources what is near new surface.
+// Per tetrahedron: what is searched of it, of its triangles the most; of a mover that is searched, with others of that mover. Adds to Renewed::sources what is near new surface.
 std::vector<Renewed::Rows> rows_of_solids(const Surroundings& all, const State& state, Renewed& renewed) {
   using Rows = Renewed::Rows;
   const auto of_places = [&](const Solid& solid, const auto& visit) {
@@ -93,7 +97,7 @@ std::vector<Renewed::Rows> rows_of_solids(const Surroundings& all, const State& 
   std::vector<Rows> rows(all.solids.size(), Rows::none);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Solid& solid = all.solids[i];
-    if (renewed.movers[solid.mover]) {
+    if (renewed.within[solid.mover]) {
       rows[i] = Rows::all;
       continue;
     }
@@ -109,9 +113,7 @@ std::vector<Renewed::Rows> rows_of_solids(const Surroundings& all, const State& 
     double radius = 0; // m
     for (const Vec3& corner : x)
       radius = std::max(radius, (corner - middle).norm());
-    const double skins =
-        std::max(all.skins(solid.mover, solid.mover), all.work.inner_skin[solid.mover] + all.inner);
-    all.all.each_near(middle, radius + all.reach(skins, solid.mover), [&](int other) {
+    all.all.each_near(middle, radius + all.reach(solid.mover, -1), [&](int other) {
       if (rows[other] == Rows::none && may_reach(all, state, all.solids[other], solid))
         rows[other] = Rows::of_surfaced;
     });
@@ -125,13 +127,19 @@ std::vector<Renewed::Rows> rows_of_solids(const Surroundings& all, const State& 
 class NearSolid {
 public:
   explicit NearSolid(const Surroundings& all)
-      : all_(all), work_(all.work), seen_(all.solids.size(), -1), met_(all.work.movers.count(), -1) {}
+      : all_(all), work_(all.work), seen_(all.solids.size(), -1), apart_(all.solids.size()),
+        met_(all.work.movers.count(), -1) {}
 
-  void add(const State& state, const Solid& own, Renewed::Rows rows, Pairs& movers) {
+  void add(const State& state, const Renewed& renewed, const Solid& own, Renewed::Rows rows, Pairs& movers) {
+    using Rows = Renewed::Rows;
+    solid_ = &own;
     mover_ = own.mover;
-    grid_ = rows == Renewed::Rows::all           ? &all_.all
-            : rows == Renewed::Rows::of_surfaced ? &all_.surfaced
-                                                 : &all_.searched;
+    const bool searched = renewed.movers[mover_] != 0;
+    grid_ = searched || rows == Rows::all ? &all_.all
+            : rows == Rows::of_surfaced   ? &all_.surfaced
+                                          : &all_.searched;
+    meets_own_ = !work_.movers.one_piece[mover_] &&
+                 (rows == Rows::all || (rows == Rows::of_surfaced && renewed.surfaced[mover_] != 0));
     near_.clear();
     ++own_;
     for (int i = 0; i < 4; ++i) {
@@ -174,6 +182,17 @@ public:
 private:
   int fragment(int place) const { return work_.fragment[all_.active.triangles[place]]; }
   double skins(int of) const { return all_.skins(mover_, of); }
+  // Whether triangles of the tetrahedron and of another one of its mover may.
+  bool may_meet(int solid) {
+    Apart& apart = apart_[solid];
+    if (apart.asked != own_) {
+      apart.asked = own_;
+      apart.any = std::any_of(solid_->triangles.begin(), solid_->triangles.end(), [&](int source) {
+        return source >= 0 && all_.may_meet_any(source, all_.solids[solid]);
+      });
+    }
+    return apart.any;
+  }
 
   void add_corner(const Solid& own, int k, const std::array<Vec3, 4>& x) {
     const int node = all_.model.tets[own.tet][k];
@@ -200,15 +219,15 @@ private:
     const double most = 8 * work_.bonds_give[work_.movers.block[mover_]] * all_.tallest + drawn;
     const double reach =
         std::max({all_.allowed[mover_] + all_.skin, 3 * (work_.inner_skin[mover_] + all_.inner),
-                  work_.movers.one_piece[mover_] ? 0 : 3 * skins(mover_)});
+                  meets_own_ ? 3 * skins(mover_) : 0});
     ++asked_;
     grid_->each_near(x[k], reach + most, [&](int i) {
-      if (seen_[i] == asked_)
+      if ((all_.mover_of[i] == mover_ && !meets_own_) || seen_[i] == asked_)
         return;
       seen_[i] = asked_;
-      const Solid& solid = all_.solids[i];
-      if (solid.mover == mover_ && work_.movers.one_piece[mover_])
+      if (all_.mover_of[i] == mover_ && !may_meet(i))
         return;
+      const Solid& solid = all_.solids[i];
       if (both_tets(solid.mover) && met_[solid.mover] == own_)
         return;
       const double outside = solid.outside(x[k]) - drawn;
@@ -283,8 +302,12 @@ private:
       // Further from the surface than the skins.
       const double deepest = 2 * depth_of(work_, all_.triangle(source)) + near;
       const double reach = std::min(nearest, deepest) + 2 * near + all_.slack(of);
+      ++asked_;
       grid_->each_near(spring, reach, [&](int i) {
-        if (all_.solids[i].mover == of && all_.solids[i].outside(spring) <= reach)
+        if (all_.mover_of[i] != of || seen_[i] == asked_)
+          return;
+        seen_[i] = asked_;
+        if ((of != mover_ || may_meet(i)) && all_.solids[i].outside(spring) <= reach)
           add_triangles(source, corner, i, targets);
       });
     }
@@ -344,8 +367,10 @@ private:
   const Surroundings& all_;
   const ContactWork& work_;
   const SolidGrid* grid_ = nullptr;
+  const Solid* solid_ = nullptr;
   int mover_ = 0;
-  struct Around { // a tetrahedron
+  bool meets_own_ = false; // its own mover is looked at
+  struct Around {          // a tetrahedron
     int mover, solid;
     double outside; // m, at least, that all semi-springs at the corner stand outside it
   };
@@ -355,7 +380,12 @@ private:
   std::array<std::vector<NearTet>, 4> tets_;   // the same, of movers that are single tets
   std::vector<Near> of_tets_;
   std::vector<int> seen_; // per solid: the last question that met it
-  std::vector<int> met_;  // per mover: the last tetrahedron added that met it
+  struct Apart {
+    int asked = 0; // own_ then
+    bool any = false;
+  };
+  std::vector<Apart> apart_; // per solid
+  std::vector<int> met_;     // per mover: the last tetrahedron added that met it
   int asked_ = 0, own_ = 0;
   Pairs pairs_;
   std::vector<std::uint8_t>
@@ -373,10 +403,11 @@ NearFragments near_fragments(const Model& model, const State& state, const Conta
                              const SearchMargin& margins, const ActiveSurface& active, int block,
                              Renewed& renewed, int threads) {
   const std::vector<Solid> solids = solids_of(model, state, work, active, block);
-  std::vector<int> all, of_surfaced, of_searched;
+  std::vector<int> all, of_surfaced, of_searched, mover;
   double skin = 0, inner = 0, tallest = 0, deepest = 0;
   for (int i = 0; i < static_cast<int>(solids.size()); ++i) {
     all.push_back(i);
+    mover.push_back(solids[i].mover);
     if (renewed.movers[solids[i].mover] || renewed.surfaced[solids[i].mover])
       of_surfaced.push_back(i);
     if (renewed.movers[solids[i].mover])
@@ -389,11 +420,16 @@ NearFragments near_fragments(const Model& model, const State& state, const Conta
     tallest = std::max(tallest, triangle.height);
     deepest = std::max(deepest, 2 * depth_of(work, triangle));
   }
-  const SolidGrid grid(model, state, solids, all), grid_of_surfaced(model, state, solids, of_surfaced),
-      grid_of_searched(model, state, solids, of_searched);
-  const Surroundings around{
-      model, work,  margins, active, solids, grid, grid_of_surfaced, grid_of_searched, margins.allowed(),
-      skin,  inner, tallest, deepest};
+  const bool all_searched = of_searched.size() == all.size(),
+             none_surfaced = of_surfaced.size() == of_searched.size(); // but those that are searched
+  const auto grid_of = [&](const std::vector<int>& members) {
+    return SolidGrid(model, state, solids, members);
+  };
+  const SolidGrid grid = grid_of(all), of_some = grid_of(all_searched ? std::vector<int>{} : of_searched),
+                  of_more = grid_of(none_surfaced ? std::vector<int>{} : of_surfaced);
+  const SolidGrid &searched = all_searched ? grid : of_some, &surfaced = none_surfaced ? searched : of_more;
+  const Surroundings around{model,    work,     margins,           active, solids, mover,   grid,
+                            surfaced, searched, margins.allowed(), skin,   inner,  tallest, deepest};
   const std::vector<Renewed::Rows> rows = rows_of_solids(around, state, renewed);
   constexpr std::int64_t solids_per_chunk = 64;
   const std::vector<Range> chunks = split(static_cast<std::int64_t>(solids.size()), solids_per_chunk);
@@ -402,13 +438,14 @@ NearFragments near_fragments(const Model& model, const State& state, const Conta
   found.springs.resize(chunks.size());
   std::vector<double> loads(chunks.size(), 0.0);
   for (std::size_t i = 0; i < solids.size(); ++i)
-    loads[i / solids_per_chunk] += rows[i] != Renewed::Rows::none ? 1 : load_of_known;
+    loads[i / solids_per_chunk] +=
+        rows[i] != Renewed::Rows::none || renewed.movers[solids[i].mover] ? 1 : load_of_known;
   const std::vector<std::int64_t> own = own_share(work, loads);
   for_chunks(static_cast<std::int64_t>(own.size()), threads, [&](std::int64_t k) {
     const std::int64_t c = own[k];
     NearSolid near(around);
     for (std::int64_t i = chunks[c].begin; i < chunks[c].end; ++i)
-      near.add(state, solids[i], rows[i], movers[c]);
+      near.add(state, renewed, solids[i], rows[i], movers[c]);
     found.springs[c] = near.springs(state);
   });
   std::vector<std::vector<int>> others(work.movers.count()); // of which the number is higher

@@ -23,7 +23,8 @@ void find_changed(const Model& model, ContactWork& work, Renewed& renewed) {
   bool any = false;
   for (int t = 0; t < static_cast<int>(triangles.size()); ++t)
     if (changed(t)) {
-      any = renewed.blocks[triangles[t].block] = 1;
+      any = true;
+      renewed.blocks[triangles[t].block] = 1;
       if (work.changed[t] >= Change::joint)
         renewed.sources[t] = Renewed::Rows::all;
       if (work.changed[t] == Change::surface)
@@ -33,7 +34,7 @@ void find_changed(const Model& model, ContactWork& work, Renewed& renewed) {
     if (surfaced[m] > 0) {
       renewed.surfaced[m] = 1;
       if (surfaced[m] > most_new_surface * size_of(work, m))
-        renewed.movers[m] = 1;
+        renewed.movers[m] = renewed.within[m] = 1;
     }
   if (!any)
     return;
@@ -72,16 +73,14 @@ Renewed movers_to_search(const Model& model, ContactWork& work, bool all) {
   Renewed renewed;
   renewed.all = all;
   renewed.movers.assign(work.movers.count(), static_cast<char>(all));
+  renewed.within = renewed.movers;
   renewed.blocks.assign(model.blocks.size(), static_cast<char>(all));
-  const auto blocks = static_cast<int>(model.blocks.size());
-  for (int m = 0; m < work.movers.count(); ++m) {
-    const int block = work.movers.block[m];
-    const auto soon_due = [&] {
-      return work.left[m] < searched_with_others ||
-             gone_at_most(model, work, m) > (1 - searched_with_others) * work.skin[m];
-    };
-    if (!all && m >= blocks && (work.search_of[m] == 0 || soon_due()))
-      renewed.movers[m] = renewed.blocks[block] = 1;
+  for (auto m = static_cast<int>(model.blocks.size()); !all && m < work.movers.count(); ++m) {
+    const double left = work.movers.one_piece[m] ? searched_with_others : searched_within;
+    renewed.within[m] =
+        static_cast<char>(work.search_of[m] == 0 || gone_at_most(model, work, m) > (1 - left) * work.skin[m]);
+    if (renewed.within[m] || work.left[m] < searched_with_others)
+      renewed.movers[m] = renewed.blocks[work.movers.block[m]] = 1;
   }
   find_changed(model, work, renewed);
   return renewed;
@@ -139,7 +138,7 @@ void keep_near_movers(const Model& model, const Pairs& pairs, const std::vector<
       work.search_of[m] = search;
       work.left[m] = 1;
       work.past_others[m] = 0;
-      work.look_at[m] = 0.5 * work.skin[m];
+      work.look_at[m] = work.travelled[m] + 0.5 * (work.skin[m] - gone_at_most(model, work, m));
     }
   for (const auto& [a, b] : pairs)
     for (const auto& [m, other] : {std::pair(a, b), std::pair(b, a)}) {

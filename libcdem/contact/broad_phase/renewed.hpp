@@ -10,6 +10,7 @@ namespace cdem {
 struct Renewed {
   bool all = true;          // movers; but rigid pairs may keep their rows
   std::vector<char> movers; // per mover
+  std::vector<char> within; // per mover, of those: its rows with itself too
   std::vector<char> blocks; // per block: one of its movers, or something on it
   // Per mover: new surface of it has opened, and so rows of other blocks with it. Per triangle: rows of its semi-springs with
   // targets of its own block.
@@ -25,6 +26,8 @@ struct Renewed {
 
 // Share of a skin: a fragment with less left is searched with the first that leaves its own.
 inline constexpr double searched_with_others = 0.6;
+// The same of a fragment that is searched with itself too, which costs most of its search.
+inline constexpr double searched_within = 0.2;
 
 // Movers that are new, and those that have left their skins or soon will, or all; and sources that may meet what they could
 // not before, or whose targets are of one fragment no more. Other rows of what has changed are looked at in this step.

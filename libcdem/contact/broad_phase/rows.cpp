@@ -88,16 +88,20 @@ private:
   bool stays(const ContactRow& row, const std::vector<ContactCandidate>& candidates) {
     kept_.clear();
     const bool of_pair = row.pair >= 0;
-    if (of_pair ? renewed_.pair_now[row.pair] < 0 : renewed_.all || is_renewed(source_now(row)))
+    if (of_pair ? renewed_.pair_now[row.pair] < 0 : renewed_.all)
       return false;
-    const auto is_renewed = [&](int target) { return !of_pair && this->is_renewed(target); };
     if (kind_ == Contact::spring) { // all its targets are of one fragment
       const ContactCandidate* const first = candidates.data() + row.begin;
       const auto target = static_cast<int>(first->target);
-      if (!is_renewed(target) && (of_pair || !changes(row.source, target)))
+      if (of_pair || (!is_renewed(row.source, target) && !changes(row.source, target)))
         kept_.assign(first, first + row.count);
       return !kept_.empty();
     }
+    const auto is_renewed = [&](int edge) {
+      return !of_pair && (renewed_.movers[mover(edge)] || renewed_.edges[edge]);
+    };
+    if (is_renewed(source_now(row)))
+      return false;
     for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
       ContactCandidate candidate = candidates[i];
       if (renumbered()) {
@@ -111,21 +115,24 @@ private:
     }
     return !kept_.empty();
   }
-  // A row of semi-springs of which neither mover is searched.
+  // A row of semi-springs of which neither mover is searched, or of one mover that is not searched with itself.
   bool changes(int source, int target) const {
     return surface_.triangles[source].block == block(static_cast<std::uint32_t>(target))
                ? renewed_.sources[source] == Renewed::Rows::all ||
                      (renewed_.sources[source] != Renewed::Rows::none && renewed_.surfaced[mover(target)])
                : work_.changed[source] >= Change::joint || renewed_.surfaced[mover(target)];
   }
-  bool is_renewed(int i) const {
-    return renewed_.movers[mover(i)] || (kind_ == Contact::edge && renewed_.edges[i]);
+  bool is_renewed(int source, int target) const { // triangles
+    const int a = mover(source), b = mover(target);
+    return a == b ? renewed_.within[a] : renewed_.movers[a] || renewed_.movers[b];
   }
 
   void keep(ContactRow row, int source) {
     row.source = source;
     if (row.pair >= 0)
       row.pair = renewed_.pair_now[row.pair];
+    else if (renewed_.movers[mover(source)]) // drifts begin again
+      row.allowed = 0;
     place(row, kept_.data(), static_cast<std::uint32_t>(kept_.size()));
   }
 

@@ -212,8 +212,8 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
                                      work.blocks_due || work.all_due || work.searches == 0 ||
                                          (fragments_due && fragments_only));
   edges_to_search(model, work, edges_before, fragments_due, renewed);
-  const std::vector<double> pace = choose_skins(model, state, work, renewed.movers, renewed.all);
-  const SearchMargin margins(model, state, work, renewed.movers);
+  const std::vector<double> pace = choose_skins(model, state, work, renewed);
+  const SearchMargin margins(model, state, work, renewed);
   const ActiveSurface active = active_surface(model, state, work, margins, renewed, threads);
   if (!active.finite())
     return false;
@@ -315,9 +315,9 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   work.undefined_pair_margin =
       renewed.all ? found.may_go : std::min(work.undefined_pair_margin, found.may_go);
   for (int m = 0; m < work.movers.count(); ++m)
-    if (renewed.movers[m])
+    if (renewed.within[m]) // else its rows with itself go on by it
       work.travelled[m] = 0;
-  begin_drifts(model, state, renewed.movers, work);
+  begin_drifts(model, state, renewed, work);
   set_drifts(model, state, work, threads);
   ++work.searches;
   keep_tet_pairs(model, renewed.movers, found.movers, work);

@@ -237,6 +237,9 @@ struct ContactWork {
   // node from it, m. Measured from the positions at that search (n_nodes).
   std::vector<geom::Vec3> drift;
   std::vector<double> swing;
+  // m, per mover, of fragments: how far, at most, nodes were at the last search from where they were when the fragment was
+  // searched for what it may do to itself.
+  std::vector<double> gone_before;
   std::vector<geom::Vec3> at_search;        // m
   std::vector<std::vector<NearMover>> near; // per mover; none of two single tets
   std::shared_ptr<TetPairs> tet_pairs;      // of two single tets; null: none has been found yet
