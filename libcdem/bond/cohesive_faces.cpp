@@ -185,7 +185,8 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const
     const Vec3 gap = f.in_axes(f.gap[point]), pulls = on_face + k * (gap + vec(face.offset[point]));
     // A crack that ended may have damaged it: its law goes on where it was.
     const double part = 1 - face.damage[point], drawn = fourth_power(part);
-    face.offset[point] = array(vec(stands.pressed) + vec(stands.bonded) / (part * drawn) - gap);
+    face.offset[point] = array(vec(stands.pressed) + vec(stands.bonded) / (part * drawn));
+    face.start[point] = array(gap);
     face.drawn[point] = drawn;
     face.slip[point] = {};
     face.rest[point] = {};

@@ -1,5 +1,5 @@
 // What one point of a cracking face carries and stores, per area (bond/cohesive_faces.hpp). Vectors stand in the face's own
-// axes. T: double, or a vector of doubles for the points of several faces.
+// axes; j is the relative displacement since the crack began. T: double, or a vector of doubles for the points of several faces.
 //
 // The law begins drawn by w0: as if a spring of the stiffness k carried what stood there. Pressure, and the shear that its
 // friction holds, are w_f; what tension and cohesion held is w_c = w0 - w_f. With D = 1 - lambda the damage:
@@ -22,6 +22,7 @@ template <class T>
 struct CohesivePoint {
   Triple<T> plane{};  // m, unit normal of the critical plane
   Triple<T> offset{}; // m, w0
+  Triple<T> start{};  // m, the law's j is the relative displacement since this one
   Triple<T> rest{};   // Pa, r0
   Triple<T> slip{};   // m, of the damaged part
   T damage{};         // D
@@ -47,6 +48,7 @@ template <class T>
 CDEM_INLINE void read_point(const CohesiveFace& face, int point, int lane, CohesivePoint<T>& at) {
   set(at.plane, lane, face.plane);
   set(at.offset, lane, face.offset[point]);
+  set(at.start, lane, face.start[point]);
   set(at.rest, lane, face.rest[point]);
   set(at.slip, lane, face.slip[point]);
   set(at.damage, lane, face.damage[point]);
@@ -111,8 +113,9 @@ constexpr int cohesive_iterations = 4;
 // grows: damage may advance.
 template <class T>
 CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, const CohesivePoint<T>& at,
-                                                  const Triple<T>& gap, const simd::MaskOf<T>& grows) {
+                                                  const Triple<T>& jump, const simd::MaskOf<T>& grows) {
   const T none{}, one = none + 1.0;
+  const Triple<T> gap = jump - at.start;
   const PartsOfStretch<T> begun = parts_of_stretch<T>(law, at.plane, at.offset);
   const Triple<T> pressed = gap + begun.pressed;
   CohesiveResponse<T> r;
@@ -160,25 +163,25 @@ CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, 
 // J per area, across the plane: what the springs store, less what they stored when the crack began, which the body never did.
 // Of that, the part of w_c fades with the law's own; the rest, of pressure and friction, goes with the last of the strength, as
 // D^32: where damage takes most per D. So a face that has lost its strength stores what its contact stores, and what breaking
-// takes grows all along. The springs of a brittle face, which loses its strength at once, keep this rest until it parts.
+// takes grows all along. A brittle face loses its strength at once; its springs keep the part of w_f until it parts.
 template <class T>
 CDEM_INLINE T stored_across(const SofteningLawOf<T>& law, const CohesivePoint<T>& at,
                             const CohesiveResponse<T>& now) {
   const PartsOfStretch<T> begun = parts_of_stretch<T>(law, at.plane, at.offset);
   const T none{}, rubbing = dot(now.contact, now.contact) / (law.kn * law.kn),
-                  bonded = dot(begun.bonded, begun.bonded), rest = dot(at.offset, at.offset) - bonded,
-                  fourth = fourth_power<T>(now.damage),
+                  bonded = dot(begun.bonded, begun.bonded), pressed = dot(begun.pressed, begun.pressed),
+                  both = dot(at.offset, at.offset) - bonded - pressed, fourth = fourth_power<T>(now.damage),
                   late = law.softens ? fourth_power<T>(fourth * fourth) : none;
   return 0.5 * law.kn *
          ((1.0 - now.damage) * (dot(now.stretch, now.stretch) - now.drawn * now.drawn * bonded) +
-          now.damage * rubbing - (1.0 - late) * rest);
+          now.damage * rubbing - (1.0 - late) * pressed - (1.0 - (law.softens ? late : now.damage)) * both);
 }
 
 // J per area of the face. r0 stores (1 - D) r0.j.
 template <class T>
-CDEM_INLINE T cohesive_stored(const SofteningLawOf<T>& law, const CohesivePoint<T>& at, const Triple<T>& gap,
+CDEM_INLINE T cohesive_stored(const SofteningLawOf<T>& law, const CohesivePoint<T>& at, const Triple<T>& jump,
                               const CohesiveResponse<T>& now) {
-  return at.plane.z * stored_across<T>(law, at, now) + (1.0 - now.damage) * dot(at.rest, gap);
+  return at.plane.z * stored_across<T>(law, at, now) + (1.0 - now.damage) * dot(at.rest, jump - at.start);
 }
 
 // What a step from the relative displacement gap0 to gap1 lost, across the plane: work by the trapezoidal rule less the

@@ -162,7 +162,7 @@ public:
     for (int point = 0; point < 3; ++point) {
       chunk_.sums.breaking -= 0.5 * pull[point].dot(now_.gap[point] - before.gap[point]);
       const geom::Vec3 gap = now_.in_axes(now_.gap[point]);
-      cohesive_.offset[point] = {};
+      cohesive_.offset[point] = cohesive_.start[point] = {};
       cohesive_.slip[point] = {gap.x(), gap.y(), std::min(0.0, gap.z())};
       cohesive_.rest[point] = {};
     }
@@ -255,7 +255,7 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int
     const V taken = facing * (damaged ? lost.breaking : none);
     // What the point loses goes by the trapezoidal rule.
     friction += damaged ? facing * lost.friction : none;
-    breaking += taken + 0.5 * g.area * grown * dot(at.rest, gap + gap0);
+    breaking += taken + 0.5 * g.area * grown * dot(at.rest, (gap - at.start) + (gap0 - at.start));
     const V into_crack = (grown > none) & (taken > none) ? taken : none,
             share_of_shear = shear_share<V>(law, at.plane, r.stretch);
     shear += share_of_shear * into_crack;
@@ -266,7 +266,7 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int
     open &= no_traction;
     ended[point] = simd::bits_of(lost_all) & used;
     opened[point] = simd::bits_of(MaskOf<V>((!r.separated) | r.opens));
-    began[point] = law.kn * at.offset; // the relative displacement was nearly zero then
+    began[point] = law.kn * at.offset;
     m = at.plane;
     pull[point] = s.now.in_space(g.area * r.traction);
     for (int lane = 0; lane < g.count; ++lane) {

@@ -9,7 +9,8 @@ namespace cdem {
 struct CohesiveFace {
   using Vector = std::array<double, 3>;
   Vector plane{};                 // normal of the critical plane, unit
-  std::array<Vector, 3> offset{}; // m, per point: w0, added to the relative displacement in the law
+  std::array<Vector, 3> offset{}; // m, per point: w0, which the law adds to the relative displacement
+  std::array<Vector, 3> start{};  // m, per point: the relative displacement with which a crack began
   std::array<double, 3>
       drawn{}; // a, per point: what is left of the part of w0 that is tension or cohesion, 1 .. 0
   std::array<Vector, 3>
