@@ -155,7 +155,9 @@ local function told_bodies()
   for _, name in ipairs(names) do
     local ok, far = pcall(function() return model:max("displacement.magnitude", name) end)
     local ok_too, press = pcall(function() return model:min("principal_stress.3", name) end)
-    if not relaxed then print(in_flow and "BODY_IN_FLOW" or "BODY", stage, name, ok and text(far) or "-", ok_too and text(press) or "-") end
+    if not relaxed then
+      print(in_flow and "BODY_IN_FLOW" or "BODY", stage, name, ok and text(far) or "-", ok_too and text(press) or "-")
+    end
   end
 end
 local function told(what)
