@@ -38,7 +38,7 @@ Value inertia(Session&, SolidObject& self, const Arguments& a) {
 }
 
 geom::Box box_of(const Arguments& given, const std::string& path) {
-  const geom::Box box = given.box("box");
+  geom::Box box = given.box("box");
   if (!(box.min.array() < box.max.array()).all())
     throw InputError(path + ".min", describe(box.min), "below " + path + ".max in every axis");
   return box;
