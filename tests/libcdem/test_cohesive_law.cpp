@@ -76,7 +76,7 @@ TEST_CASE("cohesive law: opening and slip under pressure take the fracture energ
     CrackedPoint point(joint, (joint.cohesion + pressure * tangent) * along_plane - pressure * across_plane);
     const double way = 1.01 * point.law.slip;
     point.go(way * along_plane, 4000);
-    // What its contact stores now was never given to it.
+    // The energy that its contact stores now was never given to it.
     CHECK(point.breaking + point.stored() == Approx(joint.fracture_energy_2).epsilon(3e-3));
     CHECK(point.friction == Approx(pressure * tangent * way).epsilon(3e-3));
     CHECK((point.traction() - (pressure * tangent * along_plane - pressure * across_plane)).norm() <

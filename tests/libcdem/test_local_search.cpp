@@ -1,4 +1,4 @@
-// What a search of a broken body leaves as it was: rows far from new surface, and those of a fragment with itself.
+// A search of a broken body leaves as they were: rows far from new surface, and those of a fragment with itself.
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "tests/libcdem/boxes.hpp"
