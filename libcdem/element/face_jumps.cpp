@@ -2,11 +2,30 @@
 
 #include "libcdem/parallel/simd.hpp"
 
+#include <vector>
+
 namespace cdem {
 namespace {
 
 using simd::Oct;
 using simd::Vec;
+
+// What one tet has of a StressBatch or JumpBatch: faces ask for tets one by one.
+struct alignas(64) TetRow {
+  double component[lanes]; // six and two of zero
+};
+
+CDEM_INLINE Oct load(const TetRow& row) {
+  return simd::load(row.component);
+}
+
+// Eight rows from six vectors, or the other way.
+CDEM_INLINE void store_rows(const Oct (&of)[6], TetRow* rows) {
+  Oct v[lanes] = {of[0], of[1], of[2], of[3], of[4], of[5], Oct{}, Oct{}};
+  simd::transpose(v);
+  for (int lane = 0; lane < lanes; ++lane)
+    simd::store(rows[lane].component, v[lane]);
+}
 
 // 1: the sides hold together, 0: they crack or have parted, or the lane is empty.
 CDEM_INLINE Oct holding(const FaceSideBatch& batch, const FaceStateBatch* faces) {
@@ -24,8 +43,12 @@ CDEM_INLINE Vec area_vector(const Vec& x0, const Vec& x1, const Vec& x2) {
   return scaled(Oct{} + 0.5, cross(minus(x1, x0), minus(x2, x0)));
 }
 
+// The last row takes what is beyond other chunks.
 CDEM_INLINE void jump_kernel(const FaceSides& sides, const Node* position, const Node* velocity, double dt,
-                             JumpBatch* jumps) {
+                             TetRow* rows, JumpBatch* jumps) {
+  const std::int64_t tets = sides.tet_batches * lanes;
+  for (std::int64_t i = 0; i <= tets; ++i)
+    simd::store(rows[i].component, Oct{});
   const Oct third = Oct{} + dt / 3, back = Oct{} + 0.5 * dt;
   for (std::int64_t i = 0; i < sides.count; ++i) {
     const FaceSideBatch& batch = sides.batches[i];
@@ -44,29 +67,44 @@ CDEM_INLINE void jump_kernel(const FaceSides& sides, const Node* position, const
                        half * (j.x * n.y + j.y * n.x),
                        half * (j.y * n.z + j.z * n.y),
                        half * (j.x * n.z + j.z * n.x)};
+    TetRow of_faces[lanes];
+    store_rows(of, of_faces);
     // Seen from the other side, jump and normal have the other sign.
     for (int lane = 0; lane < lanes; ++lane)
-      for (const int tet : {batch.tet[lane], batch.beyond_tet[lane]})
-        if (tet >= 0)
-          for (int c = 0; c < 6; ++c)
-            jumps[tet / lanes].component[c][tet % lanes] += of[c][lane];
+      for (const std::int64_t tet : {batch.tet[lane], batch.beyond_tet[lane]}) {
+        TetRow& row = rows[tet >= 0 ? tet : tets];
+        simd::store(row.component, load(row) + load(of_faces[lane]));
+      }
+  }
+  for (std::int64_t b = 0; b < sides.tet_batches; ++b) {
+    Oct v[lanes];
+    for (int lane = 0; lane < lanes; ++lane)
+      v[lane] = load(rows[b * lanes + lane]);
+    simd::transpose(v);
+    for (int c = 0; c < 6; ++c)
+      simd::store(jumps[b].component[c], v[c]);
   }
 }
 
 CDEM_INLINE void side_force_kernel(const FaceSides& sides, const Node* position, const StressBatch* stress,
-                                   const StressBatch* viscous, Node* force) {
-  const Oct sixth = Oct{} + 1.0 / 6; // half the traction of each side, a third of it to each corner
-  const auto stress_at = [&](int tet, int c) __attribute__((always_inline)) {
-    return stress[tet / lanes].component[c][tet % lanes] +
-           (viscous ? viscous[tet / lanes].component[c][tet % lanes] : 0);
-  };
-  for (std::int64_t i = 0; i < sides.count; ++i) {
-    const FaceSideBatch& batch = sides.batches[i];
+                                   const StressBatch* viscous, TetRow* rows, Node* force) {
+  const std::int64_t tets = sides.tet_batches * lanes;
+  simd::store(rows[tets].component, Oct{});
+  for (std::int64_t b = 0; b < sides.tet_batches; ++b) {
     Oct s[6];
     for (int c = 0; c < 6; ++c)
-      for (int lane = 0; lane < lanes; ++lane)
-        s[c][lane] = stress_at(batch.tet[lane], c) +
-                     (batch.beyond_tet[lane] >= 0 ? stress_at(batch.beyond_tet[lane], c) : 0);
+      s[c] = simd::load(stress[b].component[c]) + (viscous ? simd::load(viscous[b].component[c]) : Oct{});
+    store_rows(s, rows + b * lanes);
+  }
+  const Oct sixth = Oct{} + 1.0 / 6; // half the traction of each side, a third of it to each corner
+  for (std::int64_t i = 0; i < sides.count; ++i) {
+    const FaceSideBatch& batch = sides.batches[i];
+    Oct s[lanes];
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::int64_t beyond = batch.beyond_tet[lane];
+      s[lane] = load(rows[batch.tet[lane]]) + load(rows[beyond >= 0 ? beyond : tets]);
+    }
+    simd::transpose(s);
     const Vec n =
         scaled(sixth * holding(batch, sides.faces),
                area_vector(simd::gather(position, batch.place[0]), simd::gather(position, batch.place[1]),
@@ -81,16 +119,22 @@ CDEM_INLINE void side_force_kernel(const FaceSides& sides, const Node* position,
   }
 }
 
+TetRow* rows_of(const FaceSides& sides) {
+  thread_local std::vector<TetRow> rows;
+  rows.resize(static_cast<std::size_t>(sides.tet_batches * lanes + 1));
+  return rows.data();
+}
+
 } // namespace
 
-void add_jumps(const FaceSides& sides, const Node* position, const Node* velocity, double dt,
-               JumpBatch* jumps) {
-  simd::best<jump_kernel>(sides, position, velocity, dt, jumps);
+void find_jumps(const FaceSides& sides, const Node* position, const Node* velocity, double dt,
+                JumpBatch* jumps) {
+  simd::best<jump_kernel>(sides, position, velocity, dt, rows_of(sides), jumps);
 }
 
 void add_side_forces(const FaceSides& sides, const Node* position, const StressBatch* stress,
                      const StressBatch* viscous, Node* force) {
-  simd::best<side_force_kernel>(sides, position, stress, viscous, force);
+  simd::best<side_force_kernel>(sides, position, stress, viscous, rows_of(sides), force);
 }
 
 } // namespace cdem

@@ -19,12 +19,12 @@ namespace cdem {
 // position (m), velocity, force: one entry for each place of the chunk.
 struct FaceSides {
   const FaceSideBatch* batches = nullptr;
-  std::int64_t count = 0;
+  std::int64_t count = 0, tet_batches = 0;
   const FaceStateBatch* faces = nullptr; // of the model
 };
 
-// jumps: of the chunk's batches, all of them zero before. dt: s.
-void add_jumps(const FaceSides&, const Node* position, const Node* velocity, double dt, JumpBatch* jumps);
+// jumps: of the chunk's batches. dt: s.
+void find_jumps(const FaceSides&, const Node* position, const Node* velocity, double dt, JumpBatch* jumps);
 
 // Adds half the tractions of the chunk's tets to both sides of their faces. viscous: null without damping.
 void add_side_forces(const FaceSides&, const Node* position, const StressBatch* stress,

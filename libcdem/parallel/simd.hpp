@@ -226,6 +226,24 @@ CDEM_INLINE VecOf<V> gather_wide(const Node* nodes, const Index* index) {
   }
 }
 
+// Rows become columns: number j of vector i becomes number i of vector j.
+CDEM_INLINE void transpose(Oct (&v)[lanes]) {
+  Oct pairs[lanes], fours[lanes];
+  for (int i = 0; i < lanes; i += 2) {
+    pairs[i] = __builtin_shufflevector(v[i], v[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    pairs[i + 1] = __builtin_shufflevector(v[i], v[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int i = 0; i < lanes; i += 4)
+    for (int j = 0; j < 2; ++j) {
+      fours[i + j] = __builtin_shufflevector(pairs[i + j], pairs[i + j + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      fours[i + j + 2] = __builtin_shufflevector(pairs[i + j], pairs[i + j + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  for (int i = 0; i < 4; ++i) {
+    v[i] = __builtin_shufflevector(fours[i], fours[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    v[i + 4] = __builtin_shufflevector(fours[i], fours[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
 // Adds one lane to each of eight nodes, in lane order (a node may occur twice).
 template <class Index>
 CDEM_INLINE void scatter_add(Node* nodes, const Index (&index)[lanes], const Vec& v) {

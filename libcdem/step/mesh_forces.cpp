@@ -150,12 +150,12 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
                state.plastic_strain.data() + chunk.batches.begin, &sums.plastic};
   const StressOfRigid stress_of_rigid(model, state, chunk);
   const FaceSides sides{model.mesh.sides.data() + chunk.side_batches.begin, chunk.side_batches.size(),
-                        state.faces.data()};
+                        chunk.batches.size(), state.faces.data()};
   const bool changes_strain = sides.count > 0 || plastic.laws;
-  if (changes_strain)
-    near.jumps.assign(static_cast<std::size_t>(chunk.batches.size()), {});
-  if (sides.count > 0)
-    add_jumps(sides, at.position, at.velocity, work.strain_step, near.jumps.data());
+  if (changes_strain) {
+    near.jumps.resize(static_cast<std::size_t>(chunk.batches.size()));
+    find_jumps(sides, at.position, at.velocity, work.strain_step, near.jumps.data());
+  }
   const AveragedTets averaged{model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(),
                               last_lanes, chunk.places(), at.position};
   if (plastic.laws)
@@ -227,10 +227,10 @@ void strain_meshes(const Model& model, State& state, const std::vector<Node>& mo
       return;
     const NearArrays at = fetch(model, state, chunk, near);
     const StressOfRigid stress_of_rigid(model, state, chunk);
-    near.jumps.assign(static_cast<std::size_t>(chunk.batches.size()), {});
+    near.jumps.resize(static_cast<std::size_t>(chunk.batches.size()));
     const FaceSides sides{model.mesh.sides.data() + chunk.side_batches.begin, chunk.side_batches.size(),
-                          state.faces.data()};
-    add_jumps(sides, at.position, at.velocity, 1, near.jumps.data());
+                          chunk.batches.size(), state.faces.data()};
+    find_jumps(sides, at.position, at.velocity, 1, near.jumps.data());
     ReadAhead ahead;
     finite_volume_forces(model.mesh.batches.data() + chunk.batches.begin, chunk.batches.size(),
                          last_lanes_of(chunk), at.position, at.velocity, near.jumps.data(), 1,
