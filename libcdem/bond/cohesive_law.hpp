@@ -29,36 +29,11 @@ struct CohesivePoint {
   T drawn{};          // a
 };
 
-template <class T>
-CDEM_INLINE void set(T& to, int lane, double value) {
-  if constexpr (std::is_same_v<T, double>)
-    to = value;
-  else
-    to[lane] = value;
-}
-
-template <class T>
-CDEM_INLINE void set(Triple<T>& to, int lane, const CohesiveFace::Vector& value) {
-  set(to.x, lane, value[0]);
-  set(to.y, lane, value[1]);
-  set(to.z, lane, value[2]);
-}
-
-template <class T>
-CDEM_INLINE void read_point(const CohesiveFace& face, int point, int lane, CohesivePoint<T>& at) {
-  set(at.plane, lane, face.plane);
-  set(at.offset, lane, face.offset[point]);
-  set(at.start, lane, face.start[point]);
-  set(at.rest, lane, face.rest[point]);
-  set(at.slip, lane, face.slip[point]);
-  set(at.damage, lane, face.damage[point]);
-  set(at.drawn, lane, face.drawn[point]);
-}
-
 inline CohesivePoint<double> cohesive_point(const CohesiveFace& face, int point) {
-  CohesivePoint<double> at;
-  read_point(face, point, 0, at);
-  return at;
+  const auto triple = [](const CohesiveFace::Vector& v) { return Triple<double>{v[0], v[1], v[2]}; };
+  return {triple(face.plane),       triple(face.offset[point]), triple(face.start[point]),
+          triple(face.rest[point]), triple(face.slip[point]),   face.damage[point],
+          face.drawn[point]};
 }
 
 template <class T>

@@ -5,6 +5,7 @@
 #include "libcdem/bond/sliding_faces.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace cdem {
 namespace {
@@ -38,6 +39,83 @@ CDEM_INLINE Group<V> group_of(const CohesiveChunk& chunk, const int* faces, int 
   g.k = kn / g.area;
   return g;
 }
+
+// What the faces of a group remember, side by side. A face's numbers stand one behind the other (state/cohesive_face.hpp): they
+// are read and written in runs as long as a vector, and turned over.
+template <class V>
+class Memories {
+  static constexpr int offset = offsetof(CohesiveFace, offset) / sizeof(double),
+                       start = offsetof(CohesiveFace, start) / sizeof(double),
+                       drawn = offsetof(CohesiveFace, drawn) / sizeof(double),
+                       rest = offsetof(CohesiveFace, rest) / sizeof(double),
+                       damage = offsetof(CohesiveFace, damage) / sizeof(double),
+                       slip = offsetof(CohesiveFace, slip) / sizeof(double),
+                       preload = offsetof(CohesiveFace, preload) / sizeof(double),
+                       read = (preload + 7) / 8 * 8;
+  static_assert(offsetof(CohesiveFace, plane) == 0 && offset < start && start < drawn && drawn < rest &&
+                    rest < damage && damage < slip && slip < preload &&
+                    read * sizeof(double) <= sizeof(CohesiveFace),
+                "runs are read up to the preload and not beyond the face");
+
+public:
+  static constexpr int of_offsets = start; // as many numbers have the offsets, and those before them
+
+  // Those before the preload, or as many as asked for, in whole runs.
+  CDEM_INLINE Memories(const CohesiveFace* faces, const Group<V>& g, int numbers = preload) : g_(g) {
+    for (int first = 0; first < numbers; first += width<V>) {
+      V run[width<V>];
+      for (int lane = 0; lane < width<V>; ++lane)
+        run[lane] = simd::load_wide<V>(numbers_of(faces[g.face[lane]]) + first);
+      simd::transpose(run);
+      for (int i = 0; i < width<V>; ++i)
+        at_[first + i] = run[i];
+    }
+  }
+
+  CDEM_INLINE Triple<V> offset_of(int point) const { return triple_at(offset + 3 * point); }
+  CDEM_INLINE CohesivePoint<V> point(int p) const {
+    return {triple_at(0),
+            offset_of(p),
+            triple_at(start + 3 * p),
+            triple_at(rest + 3 * p),
+            triple_at(slip + 3 * p),
+            at_[damage + p],
+            at_[drawn + p]};
+  }
+
+  CDEM_INLINE void advance(int p, const CohesiveResponse<V>& r) {
+    at_[damage + p] = r.damage;
+    at_[drawn + p] = r.drawn;
+    at_[slip + 3 * p] = r.slip.x;
+    at_[slip + 3 * p + 1] = r.slip.y;
+    at_[slip + 3 * p + 2] = r.slip.z;
+  }
+
+  // Writes the runs in which something advances.
+  CDEM_INLINE void keep(CohesiveFace* faces) const {
+    for (int first = 0; first < preload; first += width<V>) {
+      const auto meets = [&](int begin, int end) { return first < end && begin < first + width<V>; };
+      if (!meets(drawn, rest) && !meets(damage, preload))
+        continue;
+      V run[width<V>];
+      for (int i = 0; i < width<V>; ++i)
+        run[i] = at_[first + i];
+      simd::transpose(run);
+      for (int lane = 0; lane < g_.count; ++lane)
+        simd::store_wide<V>(numbers_of(faces[g_.face[lane]]) + first, run[lane]);
+    }
+  }
+
+private:
+  template <class Face>
+  CDEM_INLINE static auto numbers_of(Face& face) {
+    return face.plane.data();
+  }
+  CDEM_INLINE Triple<V> triple_at(int i) const { return {at_[i], at_[i + 1], at_[i + 2]}; }
+
+  const Group<V>& g_;
+  V at_[read];
+};
 
 // Faces at one moment.
 template <class V>
@@ -114,10 +192,26 @@ CDEM_INLINE MaskOf<V> everywhere(bool value) {
   return MaskOf<V>{} - static_cast<std::int64_t>(value);
 }
 
+// What the joint of all faces says.
 template <class V>
-CDEM_INLINE SofteningLawOf<V> laws_of(const CohesiveChunk& chunk, const Group<V>& g) {
+CDEM_INLINE SofteningJoint<V> joint_of_all(const CohesiveChunk& chunk) {
+  Joint room;
+  const SofteningJoint<double> one = softening_values(chunk.joints.of(0, room), chunk.tan_friction);
+  const V none{};
+  return {everywhere<V>(one.softens),  everywhere<V>(one.exponential),
+          none + one.cohesion,         none + one.tan_friction,
+          none + one.tensile_strength, none + one.energy_1,
+          none + one.energy_2,         none + one.area};
+}
+
+template <class V>
+CDEM_INLINE SofteningJoint<V> joints_of(const CohesiveChunk& chunk, const Group<V>& g) {
   SofteningJoint<V> joint;
-  const auto set_lane = [&](int lane, const SofteningJoint<double>& one) __attribute__((always_inline)) {
+  for (int lane = 0; lane < width<V>; ++lane) {
+    Joint room;
+    const Joint& own = chunk.joints.of(g.face[lane], room);
+    const SofteningJoint<double> one =
+        softening_values(own, chunk.joints.tan_friction(g.face[lane], chunk.tan_friction));
     joint.softens[lane] = -static_cast<std::int64_t>(one.softens);
     joint.exponential[lane] = -static_cast<std::int64_t>(one.exponential);
     joint.cohesion[lane] = one.cohesion;
@@ -126,21 +220,8 @@ CDEM_INLINE SofteningLawOf<V> laws_of(const CohesiveChunk& chunk, const Group<V>
     joint.energy_1[lane] = one.energy_1;
     joint.energy_2[lane] = one.energy_2;
     joint.area[lane] = one.area;
-  };
-  if (chunk.joints.alike()) {
-    Joint room;
-    const SofteningJoint<double> one = softening_values(chunk.joints.of(0, room), chunk.tan_friction);
-    for (int lane = 0; lane < width<V>; ++lane)
-      set_lane(lane, one);
-  } else {
-    for (int lane = 0; lane < width<V>; ++lane) {
-      Joint room;
-      const Joint& own = chunk.joints.of(g.face[lane], room);
-      set_lane(lane, softening_values(own, chunk.joints.tan_friction(g.face[lane], chunk.tan_friction)));
-    }
   }
-  const V k = crack_stiffness * g.k;
-  return softening_law<V>(joint, k, k, SofteningBegins::at_strength);
+  return joint;
 }
 
 // What happens seldom, to one face: its springs act for the last time.
@@ -231,12 +312,16 @@ void tell_broken(const CohesiveChunk& chunk, int face, int point, const geom::Ve
 }
 
 template <class V>
-CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int count) {
+CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const SofteningJoint<V>& joint_of_all,
+                               const int* faces, int count) {
   using T3 = Triple<V>;
   const V none{}, one = none + 1.0;
   const Group<V> g = group_of<V>(chunk, faces, count);
   const unsigned used = (1u << g.count) - 1;
-  const SofteningLawOf<V> law = laws_of<V>(chunk, g);
+  const V k = crack_stiffness * g.k;
+  const SofteningLawOf<V> law = softening_law<V>(chunk.joints.alike() ? joint_of_all : joints_of<V>(chunk, g),
+                                                 k, k, SofteningBegins::at_strength);
+  Memories<V> memories(chunk.cohesive, g);
   const Stands<V> s = stands_of<V, true>(g, chunk.motion);
   const MaskOf<V> grows = everywhere<V>(chunk.breaking);
   T3 pull[3], m, began[3];
@@ -244,9 +329,10 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int
   MaskOf<V> without = everywhere<V>(true), open = without;
   unsigned ended[3], opened[3];
   for (int point = 0; point < 3; ++point) {
-    CohesivePoint<V> at;
-    for (int lane = 0; lane < width<V>; ++lane)
-      read_point(chunk.cohesive[g.face[lane]], point, lane, at);
+    // A third of the next group, while this one is computed: more than the processor can fetch at a time.
+    for (int i = width<V> + point; i < std::min(count, 2 * width<V>); i += 3)
+      simd::prefetch(&chunk.cohesive[faces[i]], sizeof(CohesiveFace));
+    const CohesivePoint<V> at = memories.point(point);
     const T3 &gap = s.now.gap[point], &gap0 = s.before.gap[point];
     const CohesiveResponse<V> r = cohesive_response<V>(law, at, gap, grows);
     const SofteningLoss<V> lost = cohesive_loss<V>(law, at, gap0, gap, r);
@@ -269,13 +355,9 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int
     began[point] = law.kn * at.offset;
     m = at.plane;
     pull[point] = s.now.in_space(g.area * r.traction);
-    for (int lane = 0; lane < g.count; ++lane) {
-      CohesiveFace& face = chunk.cohesive[g.face[lane]];
-      face.damage[point] = r.damage[lane];
-      face.drawn[point] = r.drawn[lane];
-      face.slip[point] = {r.slip.x[lane], r.slip.y[lane], r.slip.z[lane]};
-    }
+    memories.advance(point, r);
   }
+  memories.keep(chunk.cohesive);
   FaceSums& sums = chunk.sums;
   for (int lane = 0; lane < g.count; ++lane) {
     sums.friction += friction[lane];
@@ -325,17 +407,15 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const int* faces, int
 
 template <class V>
 CDEM_INLINE void hold_group(const CohesiveChunk& chunk, const int* faces, int count) {
+  for (int i = width<V>; i < std::min(count, 2 * width<V>); ++i)
+    simd::prefetch(&chunk.cohesive[faces[i]], sizeof(double) * Memories<V>::of_offsets);
   const Group<V> g = group_of<V>(chunk, faces, count);
   const Stand<V> now = stands_of<V, false>(g, chunk.motion).now;
   const V kn = g.k * g.area;
+  const Memories<V> memories(chunk.cohesive, g, Memories<V>::of_offsets);
   Triple<V> pull[3];
   for (int point = 0; point < 3; ++point) {
-    double offset[3][width<V>];
-    for (int lane = 0; lane < width<V>; ++lane)
-      for (int axis = 0; axis < 3; ++axis)
-        offset[axis][lane] = chunk.cohesive[g.face[lane]].offset[point][axis];
-    const Triple<V> w0 = {simd::load_wide<V>(offset[0]), simd::load_wide<V>(offset[1]),
-                          simd::load_wide<V>(offset[2])};
+    const Triple<V> w0 = memories.offset_of(point);
     pull[point] = now.in_space(kn * (now.gap[point] + w0));
   }
   share<V>(g, pull, chunk.force);
@@ -343,8 +423,9 @@ CDEM_INLINE void hold_group(const CohesiveChunk& chunk, const int* faces, int co
 
 template <class V>
 CDEM_INLINE void cracking_kernel(const CohesiveChunk& chunk, const int* faces, int count) {
+  const SofteningJoint<V> joint = chunk.joints.alike() ? joint_of_all<V>(chunk) : SofteningJoint<V>{};
   for (int i = 0; i < count; i += width<V>)
-    advance_group<V>(chunk, faces + i, count - i);
+    advance_group<V>(chunk, joint, faces + i, count - i);
 }
 
 template <class V>

@@ -244,6 +244,17 @@ CDEM_INLINE void transpose(Oct (&v)[lanes]) {
   }
 }
 
+CDEM_INLINE void transpose(Quad (&v)[4]) {
+  const Quad a = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6),
+             b = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6),
+             c = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7),
+             d = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
+  v[0] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+  v[1] = __builtin_shufflevector(c, d, 0, 1, 4, 5);
+  v[2] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+  v[3] = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+}
+
 // Adds one lane to each of eight nodes, in lane order (a node may occur twice).
 template <class Index>
 CDEM_INLINE void scatter_add(Node* nodes, const Index (&index)[lanes], const Vec& v) {
