@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace cdem {
 namespace {
@@ -45,13 +46,10 @@ CDEM_INLINE void holding_kernel(const FaceBatch* batches, int faces, const Node*
   for (int i = 0; i * lanes < faces; ++i) {
     const FaceBatch& batch = batches[i];
     Oct k = simd::load(batch.kn);
-    bool any = false;
-    for (int lane = 0; lane < lanes; ++lane) {
-      const bool holds = i * lanes + lane < faces && state[i].stage[lane] == FaceStage::holding;
-      k[lane] = holds ? k[lane] : 0;
-      any = any || holds;
-    }
-    if (!any)
+    const auto holds = simd::lanes_with<Oct>(reinterpret_cast<const std::uint8_t*>(state[i].stage),
+                                             static_cast<std::uint8_t>(FaceStage::holding));
+    k = holds ? k : Oct{};
+    if (!simd::any(holds))
       continue;
     Vec d[3];
     for (int corner = 0; corner < 3; ++corner)
@@ -66,6 +64,13 @@ CDEM_INLINE void holding_kernel(const FaceBatch* batches, int faces, const Node*
       simd::scatter_add(force, batch.place_b[corner], {-f.x, -f.y, -f.z});
     }
   }
+}
+
+// All of its faces hold, and no preload acts.
+bool is_calm(const FaceStateBatch& state) {
+  constexpr FaceStateBatch calm{};
+  return std::memcmp(state.stage, calm.stage, sizeof calm.stage) == 0 &&
+         std::memcmp(state.preloaded, calm.preloaded, sizeof calm.preloaded) == 0;
 }
 
 void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const FaceLaw& law,
@@ -105,30 +110,36 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
                           const FaceJoints& joints, bool breaking, FaceStateBatch* state,
                           CohesiveFace* cohesive, Node* force, FaceSums& sums) {
   simd::best<holding_kernel>(batches, faces, motion.displacement, state, force);
-  thread_local std::vector<int> cracking, resumed;
-  cracking.clear();
-  resumed.clear();
-  for (int i = 0; i < faces; ++i)
-    if (const FaceStage stage = state[i / lanes].stage[i % lanes]; has_springs(stage))
+  thread_local std::vector<int> cracking, resumed, others;
+  for (std::vector<int>* list : {&cracking, &resumed, &others})
+    list->clear();
+  for (int i = 0; i < faces; ++i) {
+    const FaceStateBatch& at = state[i / lanes];
+    if (i % lanes == 0 && is_calm(at)) {
+      i += lanes - 1;
+      continue;
+    }
+    const FaceStage stage = at.stage[i % lanes];
+    if (has_springs(stage))
       cracking.push_back(i);
     else if (stage == FaceStage::resumed)
       resumed.push_back(i);
+    if (stage == FaceStage::parted || (at.preloaded[i % lanes] != 0 && holds(stage)))
+      others.push_back(i);
+  }
   const CohesiveChunk chunk{
       batches,  motion, joints, law.tan_friction, breaking, law.hands_over, law.hand_over_due, state,
       cohesive, force,  sums};
   advance_cracking(chunk, cracking.data(), static_cast<int>(cracking.size()));
   hold_resumed(chunk, resumed.data(), static_cast<int>(resumed.size()));
-  for (int i = 0; i < faces; ++i) {
-    const FaceBatch& batch = batches[i / lanes];
+  for (const int i : others) {
     FaceStateBatch& at = state[i / lanes];
     const int lane = i % lanes;
-    if (at.stage[lane] == FaceStage::parted) {
-      if (law.hands_over && law.hand_over_due && !handed_over(at, lane)) {
-        set_hand_over(at, lane, HandOver::done);
-        sums.hands_over = true;
-      }
-    } else if (at.preloaded[lane] != 0 && holds(at.stage[lane])) { // in a crack it would work without end
-      preload(batch, lane, motion, law, at, cohesive[i], force, sums);
+    if (holds(at.stage[lane])) { // a preload would work without end in a crack
+      preload(batches[i / lanes], lane, motion, law, at, cohesive[i], force, sums);
+    } else if (law.hands_over && law.hand_over_due && !handed_over(at, lane)) {
+      set_hand_over(at, lane, HandOver::done);
+      sums.hands_over = true;
     }
   }
 }

@@ -2,6 +2,8 @@
 
 #include "libcdem/parallel/simd.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <vector>
 
 namespace cdem {
@@ -27,15 +29,21 @@ CDEM_INLINE void store_rows(const Oct (&of)[6], TetRow* rows) {
     simd::store(rows[lane].component, v[lane]);
 }
 
-// 1: the sides hold together, 0: they crack or have parted, or the lane is empty.
-CDEM_INLINE Oct holding(const FaceSideBatch& batch, const FaceStateBatch* faces) {
-  Oct together{};
+// 1: the sides hold together, 0: they crack or have parted, or the lane is empty. Without branches, which nothing could foretell.
+using Held = std::uint8_t __attribute__((vector_size(lanes)));
+CDEM_INLINE Held held(const FaceSideBatch& batch, const FaceStateBatch* faces) {
+  Held together{};
   for (int lane = 0; lane < lanes; ++lane) {
-    const auto face = static_cast<std::uint32_t>(batch.face[lane]);
-    const bool is_one = batch.face[lane] >= 0;
-    together[lane] = is_one && holds(faces[face / lanes].stage[face % lanes]) ? 1 : 0;
+    const auto face = static_cast<std::uint32_t>(std::max(batch.face[lane], 0));
+    const bool is_one = batch.face[lane] >= 0, is_held = holds(faces[face / lanes].stage[face % lanes]);
+    together[lane] = static_cast<std::uint8_t>(is_one & is_held);
   }
   return together;
+}
+CDEM_INLINE bool none(const Held& together) {
+  std::uint64_t all;
+  std::memcpy(&all, &together, sizeof all);
+  return all == 0;
 }
 
 // A n of the corners at x0, x1, x2.
@@ -52,13 +60,16 @@ CDEM_INLINE void jump_kernel(const FaceSides& sides, const Node* position, const
   const Oct third = Oct{} + dt / 3, back = Oct{} + 0.5 * dt;
   for (std::int64_t i = 0; i < sides.count; ++i) {
     const FaceSideBatch& batch = sides.batches[i];
+    const Held together = held(batch, sides.faces);
+    if (none(together))
+      continue;
     Vec x[3], sum{};
     for (int corner = 0; corner < 3; ++corner) {
       const Vec v = simd::gather(velocity, batch.place[corner]);
       x[corner] = minus(simd::gather(position, batch.place[corner]), scaled(back, v));
       sum = plus(sum, minus(simd::gather(velocity, batch.beyond[corner]), v));
     }
-    const Vec j = scaled(third * holding(batch, sides.faces), sum);
+    const Vec j = scaled(third * __builtin_convertvector(together, Oct), sum);
     const Vec n = area_vector(x[0], x[1], x[2]);
     const Oct half = Oct{} + 0.5;
     const Oct of[6] = {j.x * n.x,
@@ -99,6 +110,9 @@ CDEM_INLINE void side_force_kernel(const FaceSides& sides, const Node* position,
   const Oct sixth = Oct{} + 1.0 / 6; // half the traction of each side, a third of it to each corner
   for (std::int64_t i = 0; i < sides.count; ++i) {
     const FaceSideBatch& batch = sides.batches[i];
+    const Held together = held(batch, sides.faces);
+    if (none(together))
+      continue;
     Oct s[lanes];
     for (int lane = 0; lane < lanes; ++lane) {
       const std::int64_t beyond = batch.beyond_tet[lane];
@@ -106,7 +120,7 @@ CDEM_INLINE void side_force_kernel(const FaceSides& sides, const Node* position,
     }
     simd::transpose(s);
     const Vec n =
-        scaled(sixth * holding(batch, sides.faces),
+        scaled(sixth * __builtin_convertvector(together, Oct),
                area_vector(simd::gather(position, batch.place[0]), simd::gather(position, batch.place[1]),
                            simd::gather(position, batch.place[2])));
     const Vec f{s[0] * n.x + s[3] * n.y + s[5] * n.z, s[3] * n.x + s[1] * n.y + s[4] * n.z,

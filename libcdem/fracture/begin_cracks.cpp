@@ -31,10 +31,12 @@ double strain_rate(const Model& model, const State& state, const FaceTets& tets)
          (rate_of_strain(model, state, tets.tet_a).norm() + rate_of_strain(model, state, tets.tet_b).norm());
 }
 
-// Places of the two tets of faces among the stresses, of eight faces; lanes from `count` on repeat the last one.
+// Places of the two tets of faces among the stresses, of eight faces, and what is left of their strength; lanes from `count`
+// on repeat the last one.
 struct SlotsOfFaces {
   int count = 0;
   int face[lanes], a[lanes], b[lanes];
+  double left[lanes];
 };
 
 // Whether the mean stress of the two tets of each face is beyond a bound: a bit each.
@@ -49,6 +51,8 @@ CDEM_INLINE void beyond_kernel(const SlotsOfFaces* eights, std::size_t count, co
       for (int lane = 0; lane < lanes; ++lane)
         s[c][lane] = 0.5 * (stress[at.a[lane] / lanes].component[c][at.a[lane] % lanes] +
                             stress[at.b[lane] / lanes].component[c][at.b[lane] % lanes]);
+    for (Oct& component : s)
+      component /= simd::load(at.left);
     unsigned bits = 0;
     for (std::size_t k = 0; k < bound_count; ++k)
       if (simd::any(bounds[k].coarsely_beyond(s) > Oct{}))
@@ -82,29 +86,41 @@ public:
   }
 
 private:
-  // Ascending: those that crack, those that hold again after a crack, and of all others those that may be at their strength.
+  // Ascending: those that crack and may end, and of those that hold the ones that may be at what is left of their strength.
   std::vector<int> faces_to_look_at() const {
     thread_local std::vector<SlotsOfFaces> near;
     thread_local std::vector<std::uint8_t> beyond;
     near.clear();
     std::vector<int> faces;
+    const std::int64_t first = chunk_.face_batches.begin * lanes;
     for (int face = 0; face < chunk_.faces; ++face) {
-      const std::int64_t number = chunk_.face_batches.begin * lanes + face;
-      const FaceStage stage = state_.faces[number / lanes].stage[face % lanes];
-      if (stage == FaceStage::resumed) // it has less strength than the bounds count with
+      const FaceStage stage = state_.faces[(first + face) / lanes].stage[face % lanes];
+      if (stage == FaceStage::cracking) {
+        __builtin_prefetch(&state_.cohesive[first + face].damage);
         faces.push_back(face);
-      else if (stage == FaceStage::cracking) {
-        if (may_end(state_.cohesive[number]))
+      } else if (holds(stage)) {
+        if (!is_near(first + face))
+          continue;
+        const bool resumed = stage == FaceStage::resumed;
+        if (resumed && rock_of(face).curve.on()) // its bounds are not in proportion to what is left
           faces.push_back(face);
-      } else if (holds(stage))
-        add_if_near(number, face, near);
+        else
+          add(face, resumed ? 1 - damage_of(state_.cohesive[first + face]) : 1, near);
+      }
     }
+    const auto goes_on = [&](int face) {
+      const std::int64_t number = first + face;
+      return state_.faces[number / lanes].stage[face % lanes] == FaceStage::cracking &&
+             !may_end(state_.cohesive[number]);
+    };
+    faces.erase(std::remove_if(faces.begin(), faces.end(), goes_on), faces.end());
     if (near.empty())
       return faces;
     SlotsOfFaces& last = near.back();
     for (int lane = last.count; lane < lanes; ++lane) {
       last.a[lane] = last.a[last.count - 1];
       last.b[lane] = last.b[last.count - 1];
+      last.left[lane] = last.left[last.count - 1];
     }
     beyond.resize(near.size());
     const std::vector<UtilisationBound>& bounds = watch_.strength_bounds(index_);
@@ -118,18 +134,21 @@ private:
     return faces;
   }
 
-  void add_if_near(std::int64_t number, int face, std::vector<SlotsOfFaces>& near) const {
+  int slot(int tet) const { return model_.mesh.tet_slot[tet - model_.mesh.first_tet]; }
+  bool is_near(std::int64_t number) const {
     const FaceTets& tets = model_.mesh.face_tets[number];
-    const int a = model_.mesh.tet_slot[tets.tet_a - model_.mesh.first_tet],
-              b = model_.mesh.tet_slot[tets.tet_b - model_.mesh.first_tet];
-    if (((near_.bits[a / lanes] | near_.bits[b / lanes]) & NearStrength::may_crack) == 0)
-      return;
+    return ((near_.bits[slot(tets.tet_a) / lanes] | near_.bits[slot(tets.tet_b) / lanes]) &
+            NearStrength::may_crack) != 0;
+  }
+  void add(int face, double left, std::vector<SlotsOfFaces>& near) const {
+    const FaceTets& tets = model_.mesh.face_tets[chunk_.face_batches.begin * lanes + face];
     if (near.empty() || near.back().count == lanes)
       near.emplace_back();
     SlotsOfFaces& last = near.back();
     last.face[last.count] = face;
-    last.a[last.count] = a;
-    last.b[last.count++] = b;
+    last.a[last.count] = slot(tets.tet_a);
+    last.b[last.count] = slot(tets.tet_b);
+    last.left[last.count++] = left;
   }
 
   Mat3 stress_at(std::int64_t face) const {
@@ -170,11 +189,14 @@ private:
     const FaceBatch& at = model_.mesh.faces[batch];
     if (joint.softening != Softening::none) {
       const std::int64_t number = batch * lanes + lane;
-      const FaceMoment now = moment(batch, lane, stress_at(number));
+      const Mat3 stress = stress_at(number);
       RockStrength rock = rock_of(place(batch, lane));
       raise(rock, unloaded_part * (1 - damage_of(face)));
-      if (strength_utilisation(now.stress, rock, now.frame.normal, plane_of_face(number)) < 1)
-        breaking_ += end_crack(at, lane, now, joint, state_.faces[batch], face).value_or(0);
+      const FacePlane kind = plane_of_face(number);
+      const Vec3 normal = kind == FacePlane::own ? frame(batch, lane, step_.moved_for).normal : Vec3::Zero();
+      if (strength_utilisation(stress, rock, normal, kind) < 1)
+        breaking_ +=
+            end_crack(at, lane, moment(batch, lane, stress), joint, state_.faces[batch], face).value_or(0);
     } else if (step_.moved_for > 0) {
       const double taken =
           let_go(at, lane, moment(batch, lane, Mat3::Zero()), joint, state_.faces[batch], face);
@@ -197,8 +219,8 @@ private:
     raise(rock, left);
     const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
                                   stress(0, 1), stress(1, 2), stress(0, 2)};
-    if (!rock.curve.on() && !(UtilisationBound(rock, 1).beyond(components) > 0))
-      return;
+    if (joints_.own() && !rock.curve.on() && !(UtilisationBound(rock, 1).beyond(components) > 0))
+      return; // the bounds of the chunk are those of its weakest faces
     const FaceFrame then = frame(batch, lane, step_.moved_for);
     const FaceTets& tets = model_.mesh.face_tets[number];
     const FacePlane kind = plane_of_face(number);
