@@ -5,8 +5,6 @@
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/state/places.hpp"
 
-#include <map>
-
 namespace cdem {
 namespace {
 
@@ -21,55 +19,54 @@ const Elastic& material_of(const Model& model, int tet) {
   return model.bodies[model.blocks[model.tet_block[tet]].body].material;
 }
 
-// Which tets touch a node: begin (n mesh nodes + 1) into tets, with the corner.
+// Which tets touch or reach to a node: begin (n mesh nodes + 1) into tets, with its place among the nodes of each.
 struct TetsOfNodes {
   std::vector<std::int64_t> begin;
   std::vector<std::pair<int, int>> tets;
 };
 
-TetsOfNodes tets_of_nodes(const Model& model) {
-  const int first_node = model.mesh.first_node, first_tet = model.mesh.first_tet;
+// each(visit): visit(node, tet, place) for all of them, twice.
+template <class Each>
+TetsOfNodes tets_of_nodes(const Model& model, const Each& each) {
+  const int first_node = model.mesh.first_node;
   TetsOfNodes of;
   of.begin.assign(model.node_position.size() - static_cast<std::size_t>(first_node) + 1, 0);
-  const auto each = [&](const auto& visit) {
-    for (int t = first_tet; t < static_cast<int>(model.tets.size()); ++t)
-      for (int k = 0; k < 4; ++k)
-        visit(model.tets[t][k] - first_node, t, k);
-  };
-  each([&](int node, int, int) { ++of.begin[node + 1]; });
+  each([&](int node, int, int) { ++of.begin[node - first_node + 1]; });
   for (std::size_t i = 1; i < of.begin.size(); ++i)
     of.begin[i] += of.begin[i - 1];
   of.tets.resize(of.begin.back());
   std::vector<std::int64_t> next(of.begin.begin(), of.begin.end() - 1);
-  each([&](int node, int t, int k) { of.tets[next[node]++] = {t, k}; });
+  each([&](int node, int t, int place) { of.tets[next[node - first_node]++] = {t, place}; });
   return of;
 }
 
 // A node's row of the assembled stiffness: the blocks with each of its neighbours.
 class Row {
 public:
-  void clear() { used_ = 0; }
+  explicit Row(std::size_t nodes) : place_(nodes, -1) {}
+  void clear() {
+    for (const int node : nodes_)
+      place_[node] = -1;
+    nodes_.clear();
+    blocks_.clear();
+  }
   geom::Mat3& with(int node) {
-    for (std::size_t i = 0; i < used_; ++i)
-      if (nodes_[i] == node)
-        return blocks_[i];
-    if (used_ == nodes_.size()) {
+    if (place_[node] < 0) {
+      place_[node] = static_cast<int>(nodes_.size());
       nodes_.push_back(node);
-      blocks_.emplace_back();
+      blocks_.emplace_back(geom::Mat3::Zero());
     }
-    nodes_[used_] = node;
-    blocks_[used_].setZero();
-    return blocks_[used_++];
+    return blocks_[place_[node]];
   }
   double largest_sum() const {
     geom::Vec3 sum = geom::Vec3::Zero();
-    for (std::size_t i = 0; i < used_; ++i)
-      sum += blocks_[i].cwiseAbs().rowwise().sum();
+    for (const geom::Mat3& block : blocks_)
+      sum += block.cwiseAbs().rowwise().sum();
     return sum.maxCoeff();
   }
 
 private:
-  std::size_t used_ = 0;
+  std::vector<int> place_; // by node of the model; -1: none yet
   std::vector<int> nodes_;
   std::vector<geom::Mat3> blocks_;
 };
@@ -93,7 +90,7 @@ std::vector<geom::Mat3> velocity_jumps(const Model& model, const State& state,
   return jumps;
 }
 
-// A tet and what its strain depends on: sum of sym(u of the node (x) gradient), with the nodes beyond its freed faces.
+// What the strain of a tet depends on: sum of sym(u of the node (x) gradient), with the nodes beyond its freed faces.
 struct Reach {
   double volume = 0;
   std::vector<std::pair<int, geom::Vec3>> gradients; // 1/m
@@ -105,22 +102,44 @@ struct Reach {
   }
 };
 
-std::array<geom::Vec3, 4> undeformed(const Model& model, int tet) {
-  std::array<geom::Vec3, 4> x;
-  for (int k = 0; k < 4; ++k)
-    x[k] = model.node_position[model.tets[tet][k]];
-  return x;
+std::vector<TetGradients> undeformed_shapes(const Model& model) { // of all tets of meshes
+  std::vector<TetGradients> shapes;
+  for (auto t = static_cast<std::size_t>(model.mesh.first_tet); t < model.tets.size(); ++t) {
+    std::array<geom::Vec3, 4> x;
+    for (int k = 0; k < 4; ++k)
+      x[k] = model.node_position[model.tets[t][k]];
+    shapes.push_back(tet_gradients(x));
+  }
+  return shapes;
+}
+
+// Adds the blocks of one node of a tet with all that its strain depends on, gradients: 1/m, by node.
+template <class Gradients>
+void add_to_row(const Elastic& material, double volume, const geom::Vec3& own, const Gradients& gradients,
+                Row& row) {
+  const double lambda = material.lame_lambda(), shear = material.shear_modulus();
+  for (const auto& [node, gradient] : gradients)
+    row.with(node) += stiffness_block(lambda, shear, volume, own, gradient);
+}
+
+void add_to_row(const Model& model, const TetGradients& shape, int tet, int corner, Row& row) {
+  const std::array<std::pair<int, const geom::Vec3&>, 4> gradients{{{model.tets[tet][0], shape.gradient[0]},
+                                                                    {model.tets[tet][1], shape.gradient[1]},
+                                                                    {model.tets[tet][2], shape.gradient[2]},
+                                                                    {model.tets[tet][3], shape.gradient[3]}}};
+  add_to_row(material_of(model, tet), shape.volume, shape.gradient[corner], gradients, row);
 }
 
 // Where faces are freed: the row sums of the tets with all that they reach to, in place of those of the tets alone where
 // they are larger. As faces crack the rows go from these to those.
-void raise_freed_rows(const Model& model, const TetsOfNodes& of, std::vector<double>& sums) {
-  std::map<int, Reach> reaches; // by tet
+void raise_freed_rows(const Model& model, const TetsOfNodes& of, const std::vector<TetGradients>& shapes,
+                      Row& row, std::vector<double>& sums) {
+  const int first_tet = model.mesh.first_tet;
+  std::vector<Reach> reaches(shapes.size()); // without gradients: no face of the tet is freed
   each_side(model.mesh, [&](int tet, int, const geom::Triangle& own, const geom::Triangle& beyond) {
-    Reach& reach = reaches[tet];
-    const std::array<geom::Vec3, 4> x = undeformed(model, tet);
+    Reach& reach = reaches[tet - first_tet];
     if (reach.gradients.empty()) {
-      const TetGradients shape = tet_gradients(x);
+      const TetGradients& shape = shapes[tet - first_tet];
       reach.volume = shape.volume;
       for (int k = 0; k < 4; ++k)
         reach.at(model.tets[tet][k]) += shape.gradient[k];
@@ -133,30 +152,25 @@ void raise_freed_rows(const Model& model, const TetsOfNodes& of, std::vector<dou
       reach.at(beyond[i]) += part;
     }
   });
-  std::map<int, std::vector<int>> reaching; // tets by node
-  for (const auto& [tet, reach] : reaches)
-    for (const auto& [node, gradient] : reach.gradients)
-      reaching[node].push_back(tet);
-  Row row;
-  for (const auto& [node, tets] : reaching) {
+  const TetsOfNodes reaching = tets_of_nodes(model, [&](const auto& visit) {
+    for (std::size_t t = 0; t < reaches.size(); ++t)
+      for (std::size_t k = 0; k < reaches[t].gradients.size(); ++k)
+        visit(reaches[t].gradients[k].first, first_tet + static_cast<int>(t), static_cast<int>(k));
+  });
+  for (std::size_t i = 0; i + 1 < reaching.begin.size(); ++i) {
+    if (reaching.begin[i] == reaching.begin[i + 1])
+      continue;
     row.clear();
-    for (const int t : tets) {
-      Reach& reach = reaches[t];
-      const geom::Vec3 p = reach.at(node);
-      for (const auto& [other, q] : reach.gradients)
-        row.with(other) += stiffness_block(material_of(model, t), reach.volume, p, q);
+    for (std::int64_t j = reaching.begin[i]; j < reaching.begin[i + 1]; ++j) {
+      const auto [t, a] = reaching.tets[j];
+      const Reach& reach = reaches[t - first_tet];
+      add_to_row(material_of(model, t), reach.volume, reach.gradients[a].second, reach.gradients, row);
     }
-    const int i = node - model.mesh.first_node;
-    for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j) {
-      const auto [t, a] = of.tets[j];
-      if (reaches.count(t) > 0)
-        continue;
-      const TetGradients shape = tet_gradients(undeformed(model, t));
-      for (int b = 0; b < 4; ++b)
-        row.with(model.tets[t][b]) +=
-            stiffness_block(material_of(model, t), shape.volume, shape.gradient[a], shape.gradient[b]);
-    }
-    sums[node] = std::max(sums[node], row.largest_sum());
+    for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j)
+      if (const auto [t, a] = of.tets[j]; reaches[t - first_tet].gradients.empty())
+        add_to_row(model, shapes[t - first_tet], t, a, row);
+    double& sum = sums[static_cast<std::size_t>(model.mesh.first_node) + i];
+    sum = std::max(sum, row.largest_sum());
   }
 }
 
@@ -260,21 +274,22 @@ State moved_back(const Model& model, const State& state, double lag) {
 void add_mesh_row_sums(const Model& model, std::vector<double>& sums) {
   if (model.mesh.empty())
     return;
-  const TetsOfNodes of = tets_of_nodes(model);
-  Row row;
+  const int first_tet = model.mesh.first_tet;
+  const std::vector<TetGradients> shapes = undeformed_shapes(model);
+  const TetsOfNodes of = tets_of_nodes(model, [&](const auto& visit) {
+    for (int t = first_tet; t < static_cast<int>(model.tets.size()); ++t)
+      for (int k = 0; k < 4; ++k)
+        visit(model.tets[t][k], t, k);
+  });
+  Row row(model.node_position.size());
   for (std::size_t i = 0; i + 1 < of.begin.size(); ++i) {
     row.clear();
-    for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j) {
-      const auto [t, a] = of.tets[j];
-      const TetGradients shape = tet_gradients(undeformed(model, t));
-      for (int b = 0; b < 4; ++b)
-        row.with(model.tets[t][b]) +=
-            stiffness_block(material_of(model, t), shape.volume, shape.gradient[a], shape.gradient[b]);
-    }
+    for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j)
+      add_to_row(model, shapes[of.tets[j].first - first_tet], of.tets[j].first, of.tets[j].second, row);
     sums[static_cast<std::size_t>(model.mesh.first_node) + i] += row.largest_sum();
   }
   if (!model.mesh.sides.empty())
-    raise_freed_rows(model, of, sums);
+    raise_freed_rows(model, of, shapes, row, sums);
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
     const FaceBatch& batch = model.mesh.faces[at.batch];
     const int lane = at.lane;

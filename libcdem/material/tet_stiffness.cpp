@@ -15,9 +15,7 @@ TetGradients tet_gradients(const std::array<geom::Vec3, 4>& x) {
 }
 
 geom::Mat3 stiffness_block(const Elastic& material, double volume, const geom::Vec3& p, const geom::Vec3& q) {
-  const double lambda = material.lame_lambda(), shear = material.shear_modulus();
-  return volume * (lambda * p * q.transpose() + shear * (q * p.transpose()) +
-                   shear * p.dot(q) * geom::Mat3::Identity());
+  return stiffness_block(material.lame_lambda(), material.shear_modulus(), volume, p, q);
 }
 
 } // namespace cdem

@@ -17,5 +17,10 @@ TetGradients tet_gradients(const std::array<geom::Vec3, 4>& corners); // m
 
 // N/m, between two nodes; volume: m3; p, q: the gradients at the two, 1/m.
 geom::Mat3 stiffness_block(const Elastic&, double volume, const geom::Vec3& p, const geom::Vec3& q);
+inline geom::Mat3 stiffness_block(double lambda, double shear, double volume, const geom::Vec3& p,
+                                  const geom::Vec3& q) {
+  return volume * (lambda * p * q.transpose() + shear * (q * p.transpose()) +
+                   shear * p.dot(q) * geom::Mat3::Identity());
+}
 
 } // namespace cdem
