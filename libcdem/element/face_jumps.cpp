@@ -143,6 +143,10 @@ TetRow* rows_of(const FaceSides& sides) {
 
 void find_jumps(const FaceSides& sides, const Node* position, const Node* velocity, double dt,
                 JumpBatch* jumps) {
+  if (sides.count == 0) {
+    std::fill_n(jumps, sides.tet_batches, JumpBatch{});
+    return;
+  }
   simd::best<jump_kernel>(sides, position, velocity, dt, rows_of(sides), jumps);
 }
 

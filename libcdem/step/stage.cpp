@@ -287,11 +287,15 @@ void Stage::look_over() {
     work.contact.anew = work.contact.anew || faces;
     std::fill(work.contact.told_due.begin(), work.contact.told_due.end(), 1);
   }
+  times_.end(StepLine::watch);
   synchronise_contacts(context_.log);
+  times_.end(StepLine::contact_search);
   broken_between_ += synchronise_stress(context_.log);
+  times_.end(StepLine::elements);
   if (work.contact
           .fragments_due) // faces have been handed over: a stage that goes on from here would not know
     synchronise_contacts(context_.log);
+  times_.end(StepLine::contact_search);
   look_for_escapes();
 }
 

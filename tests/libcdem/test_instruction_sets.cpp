@@ -1,6 +1,7 @@
 // The same bits on every kind of processor: short runs in child processes, one for each instruction set that this
 // machine has, and one whose C library is told that the processor has nothing beyond the baseline.
 #include "libcdem/parallel/instruction_set.hpp"
+#include "libcdem/parallel/simd.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "tests/libcdem/boxes.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
@@ -100,6 +101,18 @@ std::string hashes_with(const std::string& environment) {
 }
 
 } // namespace
+
+TEMPLATE_TEST_CASE("rows of vectors become columns", "[simd]", cdem::simd::Oct, cdem::simd::Quad) {
+  constexpr int width = cdem::simd::width<TestType>;
+  TestType rows[width];
+  for (int i = 0; i < width; ++i)
+    for (int j = 0; j < width; ++j)
+      rows[i][j] = 10 * i + j;
+  cdem::simd::transpose(rows);
+  for (int i = 0; i < width; ++i)
+    for (int j = 0; j < width; ++j)
+      CHECK(rows[i][j] == 10 * j + i);
+}
 
 TEST_CASE("prints the hashes of short runs", "[.hashes]") {
   System s = thrown();
