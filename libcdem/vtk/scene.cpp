@@ -363,7 +363,7 @@ Scene::Scene(const SceneInput& in, const View& view, const std::array<int, 2>& s
     const double width =
         std::clamp(0.03 * median_edge_pixels(in.snapshot, in.points, view), 0.3, 1.8 * in.pixel);
     Ribbons ribbons(view, width, 2);
-    const std::vector<int> place = places_of(in.points);
+    const std::vector<int> place = places_of(in.snapshot.points); // where tets that moved apart were one
     const auto seen = seen_edges(in.snapshot, in.points, place, view);
     for (const auto& e : in.snapshot.block_edges)
       if (std::binary_search(seen.begin(), seen.end(), edge_between(place[e[0]], place[e[1]])))

@@ -1545,7 +1545,7 @@ function Model:save_joints(options) end
 ---@field arrows? boolean default false: displacement of the blocks that are shown
 ---@field crosses? boolean default false: principal stresses of the blocks that are shown, pressure and tension in two colours
 ---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
----@field joints? boolean default false: the joints alone, within the outline of the bodies; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
+---@field joints? boolean default false: the joints alone, within the outline of the bodies, as lines where they are square to the picture; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
 ---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
 ---@field water? boolean default true: free surface of the water that loads the model (model:flow with water, and the level or table of model:water), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
 ---@field water_velocity? boolean default false: velocity of that water as arrows: on its free surface, or in the section where that is upright
@@ -1614,7 +1614,7 @@ function Model:picture(options) end
 ---@field arrows? boolean default false: displacement of the blocks that are shown
 ---@field crosses? boolean default false: principal stresses of the blocks that are shown, pressure and tension in two colours
 ---@field joint_sets? string[] with joints: the sets that are drawn; all when left out
----@field joints? boolean default false: the joints alone, within the outline of the bodies; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
+---@field joints? boolean default false: the joints alone, within the outline of the bodies, as lines where they are square to the picture; colour is then "slip", "opening", "utilisation", "normal_traction", "shear_traction", "water_pressure", "mode" or "set"
 ---@field bolts? boolean default true: bolts, drawn over the blocks and coloured by their tension
 ---@field water? boolean default true: free surface of the water that loads the model (model:flow with water, and the level or table of model:water), as a transparent sheet that tints no coloured body, and the line where it cuts the bodies; in a section its line
 ---@field water_velocity? boolean default false: velocity of that water as arrows: on its free surface, or in the section where that is upright
@@ -1954,7 +1954,7 @@ function cdem.bricks(options) end
 ---@field shape cdem.Assembly
 ---@field sets cdem.CutByJointsOptionsSets[]
 ---@field seed? integer >= 0, default 1: the same seed gives the same blocks on every machine
----@field smallest? number m, >= 0, default 0: blocks whose least height over a face is smaller are splinters, which fail before the rock does and shorten the time step. A splinter is united with a neighbour if both together are convex. Otherwise one of its faces is glued to a neighbour
+---@field smallest? number m, >= 0, default 0: blocks whose least height over a face is smaller are splinters, which fail before the rock does and shorten the time step. A splinter is united with a neighbour if both together are convex. Otherwise one of its faces is glued to a neighbour. Glued cuts are left as they are: a splinter joins no neighbour across one
 
 ---Cuts every block by the planes of joint sets, one set after the other, those with a persistence below 1 last.
 ---@param options cdem.CutByJointsOptions

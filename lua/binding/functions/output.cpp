@@ -135,7 +135,8 @@ const Record<PictureOptions> model_view{
          "principal stresses of the blocks that are shown, pressure and tension in two colours")},
      {list("joint_sets", text_type(), 0).doc("with joints: the sets that are drawn; all when left out")},
      {flag("joints").standard(false).doc(
-         "the joints alone, within the outline of the bodies; colour is then \"slip\", \"opening\", "
+         "the joints alone, within the outline of the bodies, as lines where they are square to the picture; "
+         "colour is then \"slip\", \"opening\", "
          "\"utilisation\", \"normal_traction\", \"shear_traction\", \"water_pressure\", \"mode\" or "
          "\"set\"")},
      {flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension")},
