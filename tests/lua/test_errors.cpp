@@ -66,6 +66,8 @@ TEST_CASE("calling in the wrong way is explained", "[lua]") {
   CHECK_THAT(error_of(head + "cdem.elastic({}, 2)"), Contains("takes one table"));
   CHECK_THAT(error_of(head + "cdem.elastics{}"),
              Contains("case.lua:2: cdem.elastics: no such name; did you mean elastic?"));
+  CHECK_THAT(error_of("local cdem = require 'cdem'\ncdem.sphere{ radius = 1 }"),
+             Contains("case.lua:2: cdem.sphere: no such name; did you mean cdem.solid.sphere?"));
   CHECK_THAT(error_of(head + "cdem.select.plain{}"), Contains("did you mean plane?"));
   CHECK_THAT(error_of(column() + "model.fix{ on = 'x-' }"),
              Contains("call it with a colon on a cdem.Model: model:fix(...)"));

@@ -296,8 +296,7 @@ void bind_output(Module& m) {
            "(result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, "
            "bodies and blocks). Water that loads the model has a file of its free surface (result_water.vtu: "
            "velocity at corners).",
-           {text("file").required().doc(
-                "ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder"),
+           {text("file").required().doc("ends in .vtu, or .vtkhdf for programs that read HDF5").output(),
             text("series").doc("ends in .pvd: a time series this file is added to; run.pvd has "
                                "run_bonds.pvd, run_contacts.pvd and run_water.pvd beside it. One axis: time "
                                "where it rises from file to file, else steps"),
@@ -312,14 +311,12 @@ void bind_output(Module& m) {
             "Writes broken faces for ParaView as a surface, midway between their sides: displacement at "
             "corners; mode (1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it "
             "is not known) and body (its number from 0; -1 between two) of faces.",
-            {text("file").required().doc(
-                 "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
+            {text("file").required().doc("ends in .vtp, or .vtu for programs that know no .vtp").output(),
              flag("damaged").standard(false).doc("faces that soften and have not broken too (mode 0)"),
              text("series").doc("ends in .pvd: a time series this file is added to")},
             save_cracks);
   std::vector<Field> joint_file{
-      text("file").required().doc(
-          "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
+      text("file").required().doc("ends in .vtp, or .vtu for programs that know no .vtp").output(),
       text("series").doc("ends in .pvd: a time series this file is added to")};
   for (const Field& field : joint_choice_fields())
     joint_file.push_back(field);
