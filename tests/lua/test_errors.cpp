@@ -130,3 +130,17 @@ TEST_CASE("a solution that runs away is a SolutionError, which a script may catc
   Script rethrown(runaway + "local ok, e = pcall(function() " + solve + " end)\nerror(e, 0)");
   CHECK_THROWS_AS(rethrown.run(), cdem::SolutionError);
 }
+
+TEST_CASE("a check tries the colours of joints and sections", "[lua]") {
+  const auto checked = [](const std::string& picture) {
+    Script script(column("{1, 1, 2}", "{1, 1, 2}") + "model:picture{ file = 'p.png', " + picture + " }");
+    script.settings.check_only = true;
+    return script.error();
+  };
+  CHECK(checked("joints = true, colour = 'slip'").empty());
+  CHECK_THAT(checked("joints = true, colour = 'slipp'"), Contains("did you mean slip?"));
+  const std::string section = "section = { point = {0.5, 0.5, 1}, normal = {0, 1, 0} }, colour = ";
+  CHECK(checked(section + "'stress.zz'").empty());
+  CHECK_THAT(checked(section + "'stress.zzz'"), Contains("did you mean stress.zz"));
+  CHECK_THAT(checked("colour = 'slip'"), Contains("colour = \"slip\"") && Contains("add joints = true"));
+}

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace cdem::script {
 
@@ -213,6 +214,13 @@ Snapshot section_with_water(const Snapshot& all, const CutPlane& plane, PictureO
 }
 
 void require_together(const Arguments& a) {
+  static const std::set<std::string> of_joints{"slip", "opening", "utilisation", "normal_traction",
+                                               "shear_traction"};
+  if (!a.flag("joints") && of_joints.count(a.text_or("colour", "")) > 0)
+    throw geom::InputError(
+        "colour", describe(a.value("colour")), "a field of blocks",
+        "add joints = true, which draws the joints alone and knows this field; blocks have "
+        "joint_slip and joint_utilisation");
   const auto section = a.record("section");
   if (a.flag("joints") && (section || a.flag("arrows") || a.flag("crosses") || !a.list("hidden").empty()))
     throw geom::InputError(
@@ -250,8 +258,15 @@ Value model_picture(Session& session, ModelObject& model, const Arguments& a) {
   wish.broken_bonds = options.broken_bonds;
   wish.water = water;
   if (session.settings.check_only) {
-    if (!options.field.empty() && !inside)
+    if (options.field.empty())
+      return {};
+    if (water.point)
+      field_values(model.simulation.snapshot(title, WaterWish()), options.field);
+    else if (!a.flag("joints"))
       field_values(without_hidden(model.simulation.picture_snapshot(wish, title), hidden), options.field);
+    else if (model.simulation.counts().interfaces > 0) // others may come in a stage that cuts
+      field_values(joints_of(model.simulation.joint_picture({a.texts("joint_sets"), Selection()}, title)),
+                   options.field);
     return {};
   }
   // Every rank has its part in what is drawn, and the first draws it.
