@@ -18,7 +18,7 @@ results=$root/build/figures
 
 code_of() { # folder of an example -> hash of all that its figures depend on
   (cd -- "$root" && find libgeom libcdem lua "examples/$(basename -- "$1")" -type f \
-    '(' -name '*.cpp' -o -name '*.hpp' -o -name '*.inc' -o -name '*.lua' -o -name '*.csv' ')' -not -path 'lua/meta/*' \
+    '(' -name '*.cpp' -o -name '*.hpp' -o -name '*.inc' -o -name '*.lua' -o -name '*.csv' ')' \
     -not -path 'lua/examples/*' -not -path '*/results/*' -print0 | LC_ALL=C sort -z | xargs -0 sha256sum) | sha256sum | cut -c 1-12
 }
 

@@ -202,6 +202,11 @@ BeyondStrength Simulation::initial_stress(const InitialStress& field) {
   s.whole() = std::move(changed);
   s.whole().spent.cutting += before - s.stored_energy();
   s.warn_of_dry_rock(field);
+  if (s.stage == 0 && !s.replaying) {
+    s.given_stress.push_back({field, {}});
+    for (int b = 0; b < static_cast<int>(s.model.blocks.size()); ++b)
+      s.given_stress.back().has.push_back(selects_block(s.model, field.on, b) ? 1 : 0);
+  }
   return beyond_strength(s.model, s.whole());
 }
 

@@ -48,6 +48,13 @@ struct Simulation::Impl {
   void warn_of_distant_table(const std::shared_ptr<const WaterTable>&);
   void warn_of_open_water(const StillWater&);
   void warn_of_unstressed_rock();
+  // Initial stresses that the script has given before the first stage, and the blocks of each.
+  struct GivenStress {
+    InitialStress field;
+    std::vector<char> has; // of each block
+  };
+  std::vector<GivenStress> given_stress;
+  void warn_of_stress_jumps();
   // Flows of water that has reached no face in any run so far; and those that have.
   struct FlowKey {
     const WaterField* water;

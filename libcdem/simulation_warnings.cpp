@@ -1,6 +1,7 @@
 // What a model is asked that it can do but that hardly anybody means. Each is told once.
 #include "libcdem/simulation_impl.hpp"
 
+#include "libcdem/element/small_strain.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/load/water_table.hpp"
 #include "libcdem/results/fields.hpp"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace cdem {
 namespace {
@@ -84,6 +86,7 @@ void Simulation::Impl::warn_before_stage() {
   warn_of_loads_on_supports();
   warn_of_held_records();
   warn_of_unstressed_rock();
+  warn_of_stress_jumps();
   for (const StillWater& water : conditions.still_waters)
     warn_of_open_water(water);
 }
@@ -256,6 +259,46 @@ void Simulation::Impl::warn_of_unstressed_rock() {
       faces == 1 ? "1 face" : fmt::format("{} faces", faces),
       model.bodies[model.blocks[first->block_a].body].name, faces == 1 ? "lies" : "lie",
       faces == 1 ? "carries" : "carry", place.x(), place.y(), place.z()));
+}
+
+// Layers that are given their stress one by one are in balance only where both sides of their border have one traction.
+void Simulation::Impl::warn_of_stress_jumps() {
+  constexpr double alike = 0.05; // of the larger traction
+  const auto given = std::exchange(given_stress, {});
+  if (replaying || given.size() < 2 || given.back().has.size() != model.blocks.size())
+    return;
+  const double top = model.box.max.z();
+  double largest = 0; // Pa
+  std::string line;
+  for (std::size_t p = 0; p < model.points.size(); ++p) {
+    const Interface& interface = model.interfaces[model.points[p].interface];
+    geom::Vec3 sides[2]; // tractions
+    bool stressed[2] = {false, false};
+    for (const int side : {0, 1}) {
+      const int block = side == 0 ? interface.block_a : interface.block_b;
+      sides[side].setZero();
+      for (const GivenStress& one : given)
+        if (one.has[block] != 0) {
+          stressed[side] = true;
+          sides[side] += matrix(stress_at(one.field, top, model.point_position[p])) * interface.normal;
+        }
+    }
+    const double jump = (sides[0] - sides[1]).norm();
+    if (!stressed[0] || !stressed[1] || !(jump > largest) ||
+        !(jump > alike * std::max(sides[0].norm(), sides[1].norm())))
+      continue;
+    largest = jump;
+    const auto body = [&](int block) { return model.bodies[model.blocks[block].body].name; };
+    const geom::Vec3& x = model.point_position[p];
+    line = fmt::format(
+        "initial_stress: it jumps at a face between two layers, most at ({:.4g}, {:.4g}, {:.4g}) m: "
+        "\"{}\" bears {:.4g} Pa there and \"{}\" {:.4g} Pa, so they will move; the lower layer "
+        "needs the weight of the upper one too: stress = {{..., zz, ...}} beside its gradient",
+        x.x(), x.y(), x.z(), body(interface.block_a), sides[0].norm(), body(interface.block_b),
+        sides[1].norm());
+  }
+  if (!line.empty())
+    tell(line);
 }
 
 void Simulation::Impl::warn_of_distant_table(const std::shared_ptr<const WaterTable>& table) {

@@ -31,7 +31,7 @@ local function slide(angle, time, picture)
   if picture then
     model:picture{ file = picture, view = "iso", up = "z", colour = "displacement.x", deformation = 1,
                    size = {1600, 0}, plain = {"plate"}, range = {0, size},
-                   title = string.format("A block that has slid for %.2f s on a plane of %g degrees", time, angle) }
+                   title = string.format("Slid for %.2f s, gravity inclined by %g degrees", time, angle) }
   end
   return model:mean("displacement.x", "block") - start, model
 end

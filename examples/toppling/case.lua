@@ -33,7 +33,7 @@ local function topples(angle, picture)
   if picture and fell then
     model:picture{ file = picture, view = "iso", up = "z", colour = "displacement.magnitude", deformation = 1,
                    size = {1600, 0}, plain = {"plate"},
-                   title = string.format("A slender block topples on a plane of %.1f degrees", angle) }
+                   title = string.format("A slender block topples, gravity inclined by %.1f degrees", angle) }
   end
   return fell
 end

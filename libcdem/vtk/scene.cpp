@@ -33,6 +33,7 @@ constexpr Colour edge_colour = {0.13, 0.13, 0.13}, outline_colour = {0.5, 0.5, 0
 // Shares of the light on a coloured face: from all round, and from the lamps. A face that looks away from both keeps the first.
 constexpr double coloured_ambient = 0.82, coloured_diffuse = 0.2;
 constexpr double broken_width = 6; // pixels of a 1600 x 1200 picture
+constexpr double from_side = 0.03; // share of a triangle's area that the viewer sees, below it only its line
 
 void set_points(vtkPolyData* mesh, const std::vector<Vec3>& points) {
   vtkNew<vtkPoints> out;
@@ -65,18 +66,24 @@ std::vector<int> places_of(const std::vector<Vec3>& points) {
   return place;
 }
 
+// Share of a triangle's area that the viewer sees, below 0 from its back.
+double facing(const geom::Triangle& t, const std::vector<Vec3>& points, const View& view) {
+  const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+  return (b - a).cross(c - a).normalized().dot(view.direction_to_viewer((a + b + c) / 3));
+}
+
 std::array<int, 2> edge_between(int a, int b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
 // Edges of faces that look at the viewer, between places, sorted. The others are hidden by their own block; their first
-// pixels would come through where they leave a corner.
+// pixels would come through where they leave a corner. Joints that are drawn alone are seen from the side, too.
 std::vector<std::array<int, 2>> seen_edges(const Snapshot& s, const std::vector<Vec3>& points,
                                            const std::vector<int>& place, const View& view) {
+  const double least = s.outline.empty() ? 0 : -from_side;
   std::vector<std::array<int, 2>> edges;
   for (const geom::Triangle& t : s.surface) {
-    const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-    if ((b - a).cross(c - a).dot(view.direction_to_viewer((a + b + c) / 3)) <= 0)
+    if (!(facing(t, points, view) > least))
       continue;
     for (int k = 0; k < 3; ++k)
       edges.push_back(edge_between(place[t[k]], place[t[(k + 1) % 3]]));
@@ -125,6 +132,12 @@ double median_edge_pixels(const Snapshot& s, const std::vector<Vec3>& points, co
   return *middle;
 }
 
+// Of lines that mark joints; among small blocks thick ones would merge.
+double marked_width(const SceneInput& in, const View& view) {
+  return std::clamp(0.07 * median_edge_pixels(in.snapshot, in.points, view), 1.5 * in.pixel,
+                    broken_width * in.pixel);
+}
+
 } // namespace
 
 struct Scene::Impl {
@@ -141,19 +154,22 @@ struct Scene::Impl {
     (where ? where : renderer.Get())->AddActor(actor);
     return actor;
   }
-  void add_unlit(const std::vector<Vec3>& points, const std::vector<geom::Triangle>& triangles,
-                 const Colour& colour) {
+  // Null if there is nothing to add.
+  vtkActor* add_unlit(const std::vector<Vec3>& points, const std::vector<geom::Triangle>& triangles,
+                      const Colour& colour) {
     if (triangles.empty())
-      return;
+      return nullptr;
     vtkNew<vtkPolyData> mesh;
     set_points(mesh, points);
     set_triangles(mesh, triangles);
     vtkActor* actor = add(mesh);
     actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
     actor->GetProperty()->LightingOff();
+    return actor;
   }
   // The surface triangles of these numbers.
   void add_body(const SceneInput&, const View&, const std::vector<std::size_t>& shown, vtkRenderer*);
+  void add_joints_from_side(const SceneInput&, const View&);
   void add_broken(const SceneInput&, const View&);
   void add_water(const SceneInput&, const View&);
   static void set_camera(const SceneInput&, const View&, vtkRenderer*);
@@ -229,11 +245,33 @@ void Scene::Impl::add_body(const SceneInput& in, const View& view, const std::ve
   }
 }
 
+// Joints that are square to the picture show no face: a strip in the colour of the face stands for it.
+void Scene::Impl::add_joints_from_side(const SceneInput& in, const View& view) {
+  if (!in.field || in.field->on_points)
+    return;
+  Ribbons ribbons(view, marked_width(in, view), 3);
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  for (std::size_t t = 0; t < in.snapshot.surface.size(); ++t) {
+    const geom::Triangle& triangle = in.snapshot.surface[t];
+    if (std::abs(facing(triangle, in.points, view)) > from_side)
+      continue;
+    const Colour c = in.scale(in.field->values[t]);
+    for (int k = 0; k < 3; ++k)
+      ribbons.add(in.points[triangle[k]], in.points[triangle[(k + 1) % 3]], false);
+    while (colours->GetNumberOfTuples() < static_cast<vtkIdType>(ribbons.triangles.size()))
+      colours->InsertNextTuple3(std::lround(255 * c[0]), std::lround(255 * c[1]), std::lround(255 * c[2]));
+  }
+  if (vtkActor* strips = add_unlit(ribbons.points, ribbons.triangles, edge_colour)) {
+    vtkPolyDataMapper::SafeDownCast(strips->GetMapper())->GetInput()->GetCellData()->SetScalars(colours);
+    strips->GetMapper()->ScalarVisibilityOn();
+    strips->GetMapper()->SetColorModeToDirectScalars();
+    strips->GetMapper()->SetScalarModeToUseCellData();
+  }
+}
+
 void Scene::Impl::add_broken(const SceneInput& in, const View& view) {
-  // Among small blocks thick lines would merge.
-  const double median = median_edge_pixels(in.snapshot, in.points, view);
-  const double width = std::clamp(0.07 * median, 1.5 * in.pixel, broken_width * in.pixel),
-               casing = 0.25 * width;
+  const double width = marked_width(in, view), casing = 0.25 * width;
   const auto outline = [&](const BrokenInterfaces::Part& part, double wide, double lift, bool round,
                            double extension, const Colour& colour) {
     Ribbons ribbons(view, wide, lift * width);
@@ -325,7 +363,7 @@ Scene::Scene(const SceneInput& in, const View& view, const std::array<int, 2>& s
     const double width =
         std::clamp(0.03 * median_edge_pixels(in.snapshot, in.points, view), 0.3, 1.8 * in.pixel);
     Ribbons ribbons(view, width, 2);
-    const std::vector<int> place = places_of(in.points);
+    const std::vector<int> place = places_of(in.snapshot.points); // where tets that moved apart were one
     const auto seen = seen_edges(in.snapshot, in.points, place, view);
     for (const auto& e : in.snapshot.block_edges)
       if (std::binary_search(seen.begin(), seen.end(), edge_between(place[e[0]], place[e[1]])))
@@ -336,6 +374,8 @@ Scene::Scene(const SceneInput& in, const View& view, const std::array<int, 2>& s
       outline.add(in.points[e[0]], in.points[e[1]], false);
     impl_->add_unlit(outline.points, outline.triangles, outline_colour);
   }
+  if (!in.snapshot.outline.empty())
+    impl_->add_joints_from_side(in, view);
   if (in.broken)
     impl_->add_broken(in, view);
   impl_->has_water = water;

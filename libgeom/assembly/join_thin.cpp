@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 namespace geom {
@@ -162,6 +163,11 @@ JoinedThin join_thin(Assembly assembly, double smallest) {
     throw InputError("smallest", text(smallest), "finite and >= 0 m");
   JoinedThin result;
   std::vector<Polyhedron>& blocks = assembly.blocks;
+  std::set<std::string> joints; // names of cuts with faces that are not glued
+  for (const Polyhedron& block : blocks)
+    for (const PolyhedronFace& face : block.faces)
+      if (!face.glued && !face.cut.empty())
+        joints.insert(face.cut);
   if (smallest > 0)
     for (bool changed = true; changed;) {
       throw_if_stopped();
@@ -174,6 +180,9 @@ JoinedThin join_thin(Assembly assembly, double smallest) {
       }
       std::vector<Joining> candidates;
       for (const SharedFace& s : shared_faces(blocks, thin, same * std::min(size, smallest))) {
+        // Not across a construction cut: the outline of an excavation stays a plane, and what lies behind it is removed.
+        if (blocks[s.block_a].faces[s.face_a].glued && blocks[s.block_b].faces[s.face_b].glued)
+          continue;
         const double area =
             std::min(face_area(blocks[s.block_a], s.face_a), face_area(blocks[s.block_b], s.face_b));
         if (thin[s.block_a])
@@ -196,14 +205,16 @@ JoinedThin join_thin(Assembly assembly, double smallest) {
         ++result.united;
         changed = true;
       }
-      if (!changed) // what is left is glued
+      if (!changed) // what is left is glued, unless an earlier call has done that
         for (const Joining& c : candidates) {
-          PolyhedronFace &one = blocks[c.thin].faces[c.face], &other = blocks[c.other].faces[c.other_face];
-          if (done[c.thin])
+          const std::vector<PolyhedronFace>& faces = blocks[c.thin].faces;
+          if (done[c.thin] || std::any_of(faces.begin(), faces.end(), [&](const PolyhedronFace& face) {
+                return face.glued && joints.count(face.cut) > 0;
+              }))
             continue;
           done[c.thin] = 1;
-          result.glued += one.glued && other.glued ? 0 : 1;
-          one.glued = other.glued = true;
+          ++result.glued;
+          blocks[c.thin].faces[c.face].glued = blocks[c.other].faces[c.other_face].glued = true;
         }
       std::size_t next = 0;
       for (std::size_t b = 0; b < blocks.size(); ++b)

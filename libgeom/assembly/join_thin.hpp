@@ -2,7 +2,8 @@
 //
 // The thickness of a block is its least height over one of its faces. A thin block is merged with a neighbour if they
 // share a whole face and are convex together. The largest such face is taken. If there is none, the block's largest
-// face to a neighbour is glued: the block stays, and the joint there is removed.
+// face to a neighbour is glued: the block stays, and the joint there is removed. Faces that a construction cut glued count
+// for neither: a splinter at the outline of an excavation joins a neighbour on its own side.
 #pragma once
 
 #include "libgeom/assembly/assembly.hpp"

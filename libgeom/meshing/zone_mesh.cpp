@@ -1,6 +1,7 @@
 #include "libgeom/meshing/zone_mesh.hpp"
 
 #include "libgeom/core/check.hpp"
+#include "libgeom/core/place_text.hpp"
 #include "libgeom/mesh/boundary.hpp"
 #include "libgeom/mesh/mesh_size.hpp"
 #include "libgeom/mesh/star_mesh.hpp"
@@ -147,7 +148,7 @@ void require_size(const std::vector<Polyhedron>& blocks, double size) {
     const double tets = expected_tets(sizes, bounding_box(block), mass_properties(block).volume);
     if (!(nodes_per_tet * tets <= max_zone_nodes))
       throw InputError("zone_size", text(size), "such that no block has more than 250000 tetrahedra",
-                       "the block at " + text(mass_properties(block).centroid) + " m would have about " +
+                       "the block at " + place_text(mass_properties(block).centroid) + " would have about " +
                            text(std::round(tets)));
     all += tets;
   }

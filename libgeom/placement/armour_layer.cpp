@@ -77,6 +77,11 @@ void check(const LayerOptions& options, int count) {
   require_between("play", options.play, 0, 1);
 }
 
+// To the next centimetre above: what is asked for is then enough.
+std::string centimetres(double metres) {
+  return text(std::ceil(metres * 100 - 1e-6) / 100);
+}
+
 Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
                        const Eigen::Vector2d& room) {
   Pattern pattern;
@@ -93,12 +98,20 @@ Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
   pattern.columns = options.columns.value_or(static_cast<int>(std::min(most_columns, 1e6)));
   if (pattern.columns > most_columns)
     throw InputError("columns", std::to_string(pattern.columns), "at most " + text(most_columns),
-                     "the region has no room for more along the contour");
+                     "they need " +
+                         centimetres(pile.height + (pattern.columns - 0.5) * pattern.spacing.across) +
+                         " m along the contour, and the ground (or the region given) has " +
+                         centimetres(room.x()) + " m; make it wider");
   if (count > most_rows * pattern.columns)
-    throw InputError("count", std::to_string(count),
-                     "at most " + text(most_rows * pattern.columns) + ": " + text(most_rows) + " rows of " +
-                         std::to_string(pattern.columns),
-                     "a larger region takes more");
+    throw InputError(
+        "count", std::to_string(count),
+        "at most " + text(most_rows * pattern.columns) + ": " + text(most_rows) + " rows of " +
+            std::to_string(pattern.columns),
+        "the rows need " +
+            centimetres(pile.height + (std::ceil(count / static_cast<double>(pattern.columns)) - 1) *
+                                          pattern.spacing.rows) +
+            " m up the slope, and the ground (or the region given) has " + centimetres(room.y()) +
+            " m; make it longer, or lay more columns");
   return pattern;
 }
 

@@ -1,11 +1,12 @@
--- What the declarations say (lua/meta/cdem.lua, generated from them), and where a snippet says otherwise: functions and
+-- What the declarations say (`cdem annotations`), and where a snippet says otherwise: functions and
 -- methods that there are not, and fields that they do not take.
 local pages = require "pages"
 
 local declared = { functions = {}, methods = {}, classes = {} }
 
 local class, taken
-for line in (pages.read(pages.root .. "/lua/meta/cdem.lua")):gmatch "[^\n]+" do
+local annotations = assert(io.popen(("'%s' annotations"):format(pages.program)))
+for line in annotations:lines() do
   local name = line:match "^%-%-%-@class %(exact%) cdem%.(%w+)"
   if name then
     class = {}
@@ -25,6 +26,8 @@ for line in (pages.read(pages.root .. "/lua/meta/cdem.lua")):gmatch "[^\n]+" do
     taken = nil
   end
 end
+assert(annotations:close(), "cdem annotations failed")
+assert(next(declared.functions) and next(declared.methods))
 
 -- The text with the insides of comments and strings blanked, so that only code is left; lines stay where they are.
 local function bare(text)

@@ -61,3 +61,45 @@ TEST_CASE("a thin block that fits no neighbour is glued by its largest face", "[
   CHECK(joined.glued == 1);
   CHECK(joined.assembly.blocks.size() == 3);
 }
+
+TEST_CASE("no block is united across the outline of an excavation", "[join_thin]") {
+  PlaneCutOptions outline;
+  outline.glued = true;
+  const Plane floor = Plane::through({0, 0, 4}, {0, 0, 1});
+  const Assembly ground = cut_by_plane(grid({12, 4, 8}, {1, 1, 1}), floor, outline);
+  const std::vector<JointSet> sets{{0.2, 1.57, 1.5, 0.2, 0, 0, "bedding"},
+                                   {1.3, 1.57, 2, 0.2, 0, 0, "steep"}};
+  const JoinedThin joined = join_thin(cut_by_joints(ground, sets, 3), 0.3);
+  CHECK(joined.united > 0);
+  for (const Polyhedron& block : joined.assembly.blocks) {
+    const Box box = bounding_box(block);
+    CHECK((box.min.z() > 4 - 1e-9 || box.max.z() < 4 + 1e-9));
+  }
+}
+
+TEST_CASE("a splinter at the outline is glued on its own side, and once", "[join_thin]") {
+  // Bricks, a tile over their seam, and the ground above the tile that is to be removed.
+  PlaneCutOptions seam, outline, bed;
+  outline.glued = true;
+  seam.name = "seam", outline.name = "outline", bed.name = "bed";
+  Assembly bricks =
+      cut_by_plane(grid({2, 1, 3}, {1, 1, 1}), Plane::through({0, 0, 1.05}, {0, 0, 1}), outline);
+  bricks = cut_by_plane(bricks, Plane::through({0, 0, 1}, {0, 0, 1}), bed);
+  seam.inside = Box{{0, 0, 0}, {2, 1, 1}};
+  bricks = cut_by_plane(bricks, Plane::through({1, 0, 0}, {1, 0, 0}), seam);
+  const auto glued_beds = [](const Assembly& a) {
+    int count = 0;
+    for (const SharedFace& s : shared_faces(a.blocks, 1e-9)) {
+      const PolyhedronFace& face = a.blocks[s.block_a].faces[s.face_a];
+      count += face.cut == "bed" && face.glued ? 1 : 0;
+    }
+    return count;
+  };
+  const JoinedThin once = join_thin(bricks, 0.1);
+  CHECK(once.assembly.blocks.size() == 4);
+  CHECK(once.glued == 1);
+  CHECK(glued_beds(once.assembly) == 1);
+  const JoinedThin twice = join_thin(once.assembly, 0.1);
+  CHECK(twice.glued == 0);
+  CHECK(glued_beds(twice.assembly) == 1);
+}

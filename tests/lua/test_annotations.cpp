@@ -9,11 +9,6 @@
 using namespace cdem::script;
 using namespace cdem::script::test;
 
-TEST_CASE("the committed editor annotations are those the binding generates", "[lua]") {
-  INFO("make them anew: cmake --build <build folder> --target lua_reference");
-  CHECK(read_file(fs::path(CDEM_SOURCE) / "lua/meta/cdem.lua") == annotations());
-}
-
 TEST_CASE("the committed reference page is the one the binding generates", "[lua]") {
   INFO("make it anew: cmake --build <build folder> --target lua_reference");
   CHECK(read_file(fs::path(CDEM_SOURCE) / "docs/script-reference.md") == reference());

@@ -66,6 +66,8 @@ TEST_CASE("calling in the wrong way is explained", "[lua]") {
   CHECK_THAT(error_of(head + "cdem.elastic({}, 2)"), Contains("takes one table"));
   CHECK_THAT(error_of(head + "cdem.elastics{}"),
              Contains("case.lua:2: cdem.elastics: no such name; did you mean elastic?"));
+  CHECK_THAT(error_of("local cdem = require 'cdem'\ncdem.sphere{ radius = 1 }"),
+             Contains("case.lua:2: cdem.sphere: no such name; did you mean cdem.solid.sphere?"));
   CHECK_THAT(error_of(head + "cdem.select.plain{}"), Contains("did you mean plane?"));
   CHECK_THAT(error_of(column() + "model.fix{ on = 'x-' }"),
              Contains("call it with a colon on a cdem.Model: model:fix(...)"));
@@ -127,4 +129,18 @@ TEST_CASE("a solution that runs away is a SolutionError, which a script may catc
   CHECK_THAT(printed, Contains("case.lua:9: model:run: ") && Contains("run-away"));
   Script rethrown(runaway + "local ok, e = pcall(function() " + solve + " end)\nerror(e, 0)");
   CHECK_THROWS_AS(rethrown.run(), cdem::SolutionError);
+}
+
+TEST_CASE("a check tries the colours of joints and sections", "[lua]") {
+  const auto checked = [](const std::string& picture) {
+    Script script(column("{1, 1, 2}", "{1, 1, 2}") + "model:picture{ file = 'p.png', " + picture + " }");
+    script.settings.check_only = true;
+    return script.error();
+  };
+  CHECK(checked("joints = true, colour = 'slip'").empty());
+  CHECK_THAT(checked("joints = true, colour = 'slipp'"), Contains("did you mean slip?"));
+  const std::string section = "section = { point = {0.5, 0.5, 1}, normal = {0, 1, 0} }, colour = ";
+  CHECK(checked(section + "'stress.zz'").empty());
+  CHECK_THAT(checked(section + "'stress.zzz'"), Contains("did you mean stress.zz"));
+  CHECK_THAT(checked("colour = 'slip'"), Contains("colour = \"slip\"") && Contains("add joints = true"));
 }

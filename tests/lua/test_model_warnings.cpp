@@ -125,6 +125,24 @@ TEST_CASE("faces between rock with and without initial stress are told of, at ru
   CHECK(the_warning(script(""), words).empty());
 }
 
+TEST_CASE("an initial stress that jumps between layers is told of, at run and in a check", "[lua]") {
+  const auto script = [&](const std::string& lower) {
+    return block +
+           "model:initial_stress{ gradient = 25e3, k0 = 0.5, on = function(x, y, z) return z > 2 end }\n"
+           "model:initial_stress{ k0 = 0.8, on = function(x, y, z) return z < 2 end, " +
+           lower + " }\nmodel:gravity{ vector = {0, 0, -9.81} }\nmodel:relax{ max_steps = 5 }";
+  };
+  const std::string words = "jumps at a face between two layers";
+  const std::string jump = script("gradient = 25e3, surface = 2");
+  CHECK_THAT(the_warning(jump, words),
+             Contains("5e+04 Pa") && Contains(", 2) m") && Contains("weight of the upper"));
+  CHECK_THAT(checked(jump, words), Contains("5e+04 Pa"));
+  // Horizontal stress may differ.
+  CHECK(the_warning(script("gradient = 25e3"), words).empty());
+  CHECK(the_warning(script("gradient = 30e3, surface = 2, stress = {-4e4, -4e4, -5e4, 0, 0, 0}"), words)
+            .empty());
+}
+
 TEST_CASE("a profile of a water table that ends before the model is told of", "[lua]") {
   const auto told = [](const std::string& more) {
     return the_warning(block + "local t = cdem.water_table{ profile = { {0, 1}, {10, 3} }" + more +

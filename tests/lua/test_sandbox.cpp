@@ -52,6 +52,14 @@ TEST_CASE("the toolkit's own writers keep to the output folder too", "[lua]") {
       Contains("must be inside the output folder"));
   CHECK_THAT(error_of(column() + "model:save{ file = '../x.vtu' }"),
              Contains("must be inside the output folder"));
+  for (const std::string call : {"picture{ file = '/home/x.png' }", "save{ file = '../x.vtu' }",
+                                 "film{ file = '../x.ogv', every = 1 }", "save_state{ file = '../x.cdem' }",
+                                 "save_fragments{ file = '/x.csv' }"}) {
+    Script check(column() + "model:" + call);
+    check.settings.check_only = true;
+    INFO(call);
+    CHECK_THAT(check.error(), Contains("must be inside the output folder"));
+  }
 }
 
 TEST_CASE("a link in the output folder leads nowhere", "[lua]") {

@@ -157,6 +157,8 @@ TEST_CASE("a value that looks like one in another unit is told of, in every call
              Contains("traction: weight = 1000: is it in N/m3?"));
   CHECK_THAT(of(column() + "model:gravity{ vector = {0, 0, -9810} }"),
              Contains("gravity: vector = {0, 0, -9810}: is it in m/s2? On Earth"));
+  CHECK_THAT(of(column() + "model:gravity{ vector = {0, 0, 9.81} }"), Contains("it pulls upwards"));
+  CHECK_THAT(of(column() + "model:gravity{ vector = {1, 9.81, 0} }"), Contains("it pulls upwards"));
   const std::string bolt =
       column() + "model:bolts{ from = {0, 0.5, 0.5}, to = {1.5, 0.5, 0.5}, area = 5e-4, ";
   CHECK_THAT(of(bolt + "yield_stress = 500 }"),

@@ -5,6 +5,7 @@
 #include "libcdem/vtk/layout.hpp"
 #include "libcdem/vtk/picture.hpp"
 #include "libcdem/vtk/scene.hpp"
+#include "libcdem/vtk/section.hpp"
 #include "libgeom/core/error.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/vtk/bare_picture.hpp"
@@ -175,4 +176,25 @@ TEST_CASE("colours of numbers are those of the colour bar, at most a fifth darke
   CHECK(inside > 5000);
   CHECK(other == 0);
   CHECK(faces == (o.view == "iso" ? 3 : 1)); // each side of a block is told from the others
+}
+
+TEST_CASE("joints that are square to the picture are lines in the colour of their value") {
+  Snapshot all = sample::blocks(sample::grid(2, 1, 2, 1), 0.2);
+  sample::add_interface(all, {1, 0}, {1, 1}, 0.2, BondMode::broken_shear, 4);
+  all.bonds.triangle_fields.push_back(
+      {"slip", "m", 1, std::vector<double>(all.bonds.triangles.size(), 1), false});
+  all.outline = all.block_edges;
+  const Snapshot joints = joints_of(all);
+  PictureOptions options = bare("slip");
+  options.size = {1600, 1200};
+  options.colour_map = "blue_white_red";
+  options.range = {-1, 1};
+  options.broken_bonds = false;
+  const TemporaryFolder folder;
+  const std::string file = folder / "joints.png";
+  render(joints, options, file);
+  const Image image = read_png(file);
+  // From the bottom of the body to its top, at least two pixels wide.
+  CHECK(image.count(bytes(map_colour("blue_white_red", 1)), 2) >
+        2 * (image.bounds().top - image.bounds().bottom - 4));
 }

@@ -165,7 +165,7 @@ void bind_bolts(Module& m) {
   model.add("bolt_forces", "Forces along the bolts, one table per node.", {}, bolt_forces,
             "cdem.BoltState[]");
   model.add("save_bolts", "Writes them as .csv: bolt, node, x, y, z, tension, grout, slip, yielded.",
-            {text("file").standard("bolts.csv").doc("in the output folder")}, save_bolts);
+            {text("file").standard("bolts.csv").output()}, save_bolts);
 }
 
 } // namespace cdem::script

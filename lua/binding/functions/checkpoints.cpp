@@ -60,7 +60,7 @@ void bind_checkpoints(Module& m) {
       .add("save_state",
            "Writes the state of the model to a file that other scripts start from: motion, stress, broken "
            "bonds, contacts, time, and how it was cut. Conditions and histories stay behind.",
-           {text("file").required().doc("ends in .cdem; in the output folder")}, save_state)
+           {text("file").required().doc("ends in .cdem").output()}, save_state)
       .by_rank_0();
   model.add("load_state",
             "Takes the state from a file of save_state. The model must have been built from the same shapes, "

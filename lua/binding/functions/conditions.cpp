@@ -121,13 +121,22 @@ Value force(Session& session, ModelObject& model, const Arguments& a) {
   return {};
 }
 
-Value gravity(Session&, ModelObject& model, const Arguments& a) {
+// A minus sign is missing: z is up, or y where nothing acts along z.
+bool pulls_up(const geom::Vec3& gravity) {
+  const double up = gravity.z() != 0 ? gravity.z() : gravity.y();
+  return up > 0 && up >= gravity.cwiseAbs().maxCoeff();
+}
+
+Value gravity(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("gravity");
   Gravity gravity;
   if (a.value("vector").reference())
     gravity.turning = vector_over_time(a.function("vector"), "vector", model.time());
   else
     gravity.acceleration = a.vec3("vector");
+  if (pulls_up(gravity.acceleration))
+    session.warn("gravity: vector = " + describe(a.value("vector")) +
+                 ": it pulls upwards; downwards is negative, {0, 0, -9.81}");
   gravity.water_density = a.number("water_density");
   gravity.amplitude = amplitude_of(a, model.time());
   model.simulation.gravity(gravity);

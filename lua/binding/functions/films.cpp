@@ -98,8 +98,7 @@ Value film_of_model(Session& session, ModelObject& model, const Arguments& a) {
 
 std::vector<Field> film_fields() {
   std::vector<Field> fields = model_picture_fields();
-  fields.front() =
-      text("file").required().doc("ends in .ogv, or in .mp4 where ffmpeg is installed; in the output folder");
+  fields.front() = text("file").required().doc("ends in .ogv, or in .mp4 where ffmpeg is installed").output();
   for (Field& field : fields)
     if (field.name == "deformation")
       field.standard(1.0);
@@ -140,8 +139,7 @@ void bind_films(Module& m) {
            film_fields(), film_of_model)
       .replayed(Replay::again);
   m.add("film", "A film from pictures of one size: Ogg/Theora, or H.264 by the program ffmpeg.",
-        {text("file").required().doc(
-             "ends in .ogv, or in .mp4 where ffmpeg is installed; in the output folder"),
+        {text("file").required().doc("ends in .ogv, or in .mp4 where ffmpeg is installed").output(),
          list("frames", text_type()).required().doc("names of the pictures, in order"),
          integer("frames_per_second").within(1, 120).standard(12)},
         film_of_pictures)

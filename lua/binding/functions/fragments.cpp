@@ -84,7 +84,7 @@ void bind_fragments(Module& m) {
   model.add("save_fragments",
             "Writes a row for each fragment, the largest first: number of its body from 1 (0: parts of "
             "several), tets, held, volume, diameter, mass, centre, momentum, angular momentum, energies.",
-            {text("file").required().doc("ends in .csv; in the output folder")}, save_fragments);
+            {text("file").required().doc("ends in .csv").output()}, save_fragments);
 }
 
 } // namespace cdem::script

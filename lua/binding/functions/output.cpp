@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace cdem::script {
 
@@ -135,7 +136,8 @@ const Record<PictureOptions> model_view{
          "principal stresses of the blocks that are shown, pressure and tension in two colours")},
      {list("joint_sets", text_type(), 0).doc("with joints: the sets that are drawn; all when left out")},
      {flag("joints").standard(false).doc(
-         "the joints alone, within the outline of the bodies; colour is then \"slip\", \"opening\", "
+         "the joints alone, within the outline of the bodies, as lines where they are square to the picture; "
+         "colour is then \"slip\", \"opening\", "
          "\"utilisation\", \"normal_traction\", \"shear_traction\", \"water_pressure\", \"mode\" or "
          "\"set\"")},
      {flag("bolts").standard(true).doc("bolts, drawn over the blocks and coloured by their tension")},
@@ -212,6 +214,13 @@ Snapshot section_with_water(const Snapshot& all, const CutPlane& plane, PictureO
 }
 
 void require_together(const Arguments& a) {
+  static const std::set<std::string> of_joints{"slip", "opening", "utilisation", "normal_traction",
+                                               "shear_traction"};
+  if (!a.flag("joints") && of_joints.count(a.text_or("colour", "")) > 0)
+    throw geom::InputError(
+        "colour", describe(a.value("colour")), "a field of blocks",
+        "add joints = true, which draws the joints alone and knows this field; blocks have "
+        "joint_slip and joint_utilisation");
   const auto section = a.record("section");
   if (a.flag("joints") && (section || a.flag("arrows") || a.flag("crosses") || !a.list("hidden").empty()))
     throw geom::InputError(
@@ -249,8 +258,15 @@ Value model_picture(Session& session, ModelObject& model, const Arguments& a) {
   wish.broken_bonds = options.broken_bonds;
   wish.water = water;
   if (session.settings.check_only) {
-    if (!options.field.empty() && !inside)
+    if (options.field.empty())
+      return {};
+    if (water.point)
+      field_values(model.simulation.snapshot(title, WaterWish()), options.field);
+    else if (!a.flag("joints"))
       field_values(without_hidden(model.simulation.picture_snapshot(wish, title), hidden), options.field);
+    else if (model.simulation.counts().interfaces > 0) // others may come in a stage that cuts
+      field_values(joints_of(model.simulation.joint_picture({a.texts("joint_sets"), Selection()}, title)),
+                   options.field);
     return {};
   }
   // Every rank has its part in what is drawn, and the first draws it.
@@ -295,8 +311,7 @@ void bind_output(Module& m) {
            "(result_contacts.vtu: points with force on the source body, normal_force, shear_force, depth, "
            "bodies and blocks). Water that loads the model has a file of its free surface (result_water.vtu: "
            "velocity at corners).",
-           {text("file").required().doc(
-                "ends in .vtu, or .vtkhdf for programs that read HDF5; in the output folder"),
+           {text("file").required().doc("ends in .vtu, or .vtkhdf for programs that read HDF5").output(),
             text("series").doc("ends in .pvd: a time series this file is added to; run.pvd has "
                                "run_bonds.pvd, run_contacts.pvd and run_water.pvd beside it. One axis: time "
                                "where it rises from file to file, else steps"),
@@ -311,14 +326,12 @@ void bind_output(Module& m) {
             "Writes broken faces for ParaView as a surface, midway between their sides: displacement at "
             "corners; mode (1 tension, 2 shear), damage, opening, slip, time of the last break (nan where it "
             "is not known) and body (its number from 0; -1 between two) of faces.",
-            {text("file").required().doc(
-                 "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
+            {text("file").required().doc("ends in .vtp, or .vtu for programs that know no .vtp").output(),
              flag("damaged").standard(false).doc("faces that soften and have not broken too (mode 0)"),
              text("series").doc("ends in .pvd: a time series this file is added to")},
             save_cracks);
   std::vector<Field> joint_file{
-      text("file").required().doc(
-          "ends in .vtp, or .vtu for programs that know no .vtp; in the output folder"),
+      text("file").required().doc("ends in .vtp, or .vtu for programs that know no .vtp").output(),
       text("series").doc("ends in .pvd: a time series this file is added to")};
   for (const Field& field : joint_choice_fields())
     joint_file.push_back(field);

@@ -24,7 +24,7 @@ Field dpi_field() {
 }
 
 Field drawing_field() {
-  return text("file").required().doc("ends in .png, .svg or .pdf; in the output folder");
+  return text("file").required().doc("ends in .png, .svg or .pdf").output();
 }
 
 Field colour_field() {

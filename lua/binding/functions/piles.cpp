@@ -287,7 +287,7 @@ void bind_class(Module& m) {
       "box", "Smallest axis-aligned box that holds all units where they are.", {},
       [](PileObject& self) { return geom::bounding_box(self.pile); }, "cdem.Box");
   pile.add("save", "Writes the pile, for cdem.read_pile in another script.",
-           {text("file").required().doc("ends in .json; in the output folder")}, save_pile);
+           {text("file").required().doc("ends in .json").output()}, save_pile);
   m.classes.push_back(pile);
 }
 

@@ -294,7 +294,9 @@ void bind_builders(Module& m) {
              .standard(0.0)
              .doc("blocks whose least height over a face is smaller are splinters, which fail before the "
                   "rock does and shorten the time step. A splinter is united with a neighbour if both "
-                  "together are convex. Otherwise one of its faces is glued to a neighbour")},
+                  "together are convex. Otherwise one of its faces is glued to a neighbour. Glued cuts are "
+                  "left as they "
+                  "are: a splinter joins no neighbour across one")},
         cut_by_joints, "cdem.Assembly");
   m.add("cut_by_discs",
         "Joints of finite size: every block that a disc reaches is cut by the disc's plane. Faces with their "

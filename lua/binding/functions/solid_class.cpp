@@ -147,8 +147,7 @@ void add_methods(Class& solid) {
       },
       "cdem.Solid");
   solid
-      .add("save", "Writes a STEP file.",
-           {text("file").required().doc("ends in .step; in the output folder")}, save_solid)
+      .add("save", "Writes a STEP file.", {text("file").required().doc("ends in .step").output()}, save_solid)
       .by_rank_0();
 }
 

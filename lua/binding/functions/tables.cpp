@@ -66,7 +66,7 @@ void bind_tables(Module& m) {
       .replayed(Replay::recorded)
       .by_rank_0();
   m.add("write_csv", "Writes columns of numbers.",
-        {text("file").required().doc("in the output folder"),
+        {text("file").required().output(),
          list("columns", record_type({text("name").required(),
                                       list("values", scalar_type(), 0)
                                           .required()

@@ -249,8 +249,8 @@ void bind_tet_meshes(Module& m) {
        number("angle", "deg").within(0, 90).standard(10.0).doc("of direction: how far off a normal may be"),
        text("name")},
       mesh_faces, "cdem.FaceGroup");
-  mesh.add("save", "Writes the mesh for ParaView.",
-           {text("file").required().doc("ends in .vtu; in the output folder")}, save_mesh)
+  mesh.add("save", "Writes the mesh for ParaView.", {text("file").required().doc("ends in .vtu").output()},
+           save_mesh)
       .by_rank_0();
   mesh.add("picture", "Draws the mesh, without a display.", mesh_picture_declaration(), mesh_picture)
       .by_rank_0();

@@ -1,4 +1,4 @@
-// LuaCATS annotations of the module (lua/meta/cdem.lua), for completion and checks in editors.
+// LuaCATS annotations of the module (`cdem annotations`), for completion and checks in editors.
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/module/topics.hpp"
 

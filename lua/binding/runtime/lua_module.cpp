@@ -99,6 +99,10 @@ int call_bound(lua_State* L) {
       self = read_self(L, bound);
     const Value given = read_arguments(L, bound, bound.owner ? 2 : 1);
     const Arguments arguments = check(given, bound.function->fields);
+    // Before anything is computed, and in a check: a run shall not end at the name of its picture.
+    for (const Field& field : bound.function->fields)
+      if (field.is_output && arguments.has(field.name))
+        state.session.files.would_write(arguments.text(field.name));
     for (const std::string& remark : remarks_on(given, bound.function->fields))
       state.session.warn(bound.shown + ": " + remark);
     const Value result = answer(state.session, bound, self.get(), arguments);
@@ -271,15 +275,23 @@ void make_class(lua_State* L, const Class& c) {
 int unknown_name(lua_State* L) {
   LuaState& state = LuaState::of(L);
   std::vector<std::string> names;
+  const std::string key = key_at_2(L), place = state.where(L);
+  std::string inner; // cdem.solid.cylinder, where cdem.cylinder was written
   lua_pushnil(L);
   while (lua_next(L, 1)) {
-    if (lua_type(L, -2) == LUA_TSTRING)
+    if (lua_type(L, -2) == LUA_TSTRING) {
       names.emplace_back(lua_tostring(L, -2));
+      if (lua_istable(L, -1)) {
+        lua_pushstring(L, key.c_str());
+        if (lua_rawget(L, -2) != LUA_TNIL)
+          inner = "; did you mean cdem." + names.back() + "." + key + "?";
+        lua_pop(L, 1);
+      }
+    }
     lua_pop(L, 1);
   }
-  const std::string key = key_at_2(L), place = state.where(L);
-  const std::string message =
-      (place.empty() ? "" : place + ": ") + "cdem." + key + ": no such name" + did_you_mean(key, names);
+  const std::string message = (place.empty() ? "" : place + ": ") + "cdem." + key + ": no such name" +
+                              (inner.empty() ? did_you_mean(key, names) : inner);
   lua_pushlstring(L, message.data(), message.size());
   return lua_error(L);
 }

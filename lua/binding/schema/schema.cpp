@@ -178,6 +178,11 @@ Field& Field::in_degrees() {
   radians_inside = true;
   return unit("deg");
 }
+Field& Field::output() {
+  is_output = true;
+  doc_text += doc_text.empty() ? "in the output folder" : "; in the output folder";
+  return *this;
+}
 Field& Field::above(double low) {
   type.range.low = low;
   type.range.low_open = true;

@@ -86,6 +86,7 @@ struct Field {
   std::string old_name{};      // that the last release knew, still taken; empty: none
   bool own_standard = false;   // the default is that of the struct that it is read into
   bool radians_inside = false; // of a number in degrees
+  bool is_output = false;      // text: a file that the call writes
 
   Field& unit(std::string text);
   Field& doc(std::string text);
@@ -93,6 +94,7 @@ struct Field {
   Field& standard(Value value);
   Field& standard(); // that of the struct that it is read into (module/record.hpp)
   Field& in_degrees();
+  Field& output();                         // a file that the call writes, in the output folder
   Field& above(double low);                // > low
   Field& at_least(double low);             // >= low
   Field& up_to(double high);               // <= high, beside a low
