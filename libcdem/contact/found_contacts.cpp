@@ -46,6 +46,9 @@ int triangle_beside(const Model& model, int tet) {
   return s.block_begin[block];
 }
 
+// Largest overlap of two tetrahedra, over the lower height: half the radius of the sphere within.
+constexpr double most_overlap = 0.125;
+
 bool stands_before(const Contact& a, const Contact& b) {
   return key(a) < key(b);
 }
@@ -87,7 +90,7 @@ void FoundContacts::add(std::vector<TetChunk> found) {
   for (const TetChunk& chunk : tets_) {
     sums_.depth = std::max(sums_.depth, chunk.depth);
     sums_.depth_over_height = std::max(sums_.depth_over_height, chunk.depth_over_height);
-    if (const double part = chunk.depth_over_height / depth_ratio; part > 1 && part > sums_.deepest) {
+    if (const double part = chunk.depth_over_height / most_overlap; part > 1 && part > sums_.deepest) {
       sums_.deepest = part;
       sums_.deepest_source = triangle_beside(model_, chunk.deepest[0]);
       sums_.deepest_target = triangle_beside(model_, chunk.deepest[1]);

@@ -19,9 +19,6 @@ using TetPair = std::pair<int, int>;
 
 // Skin of a tetrahedron, over the usual height of one at the surface of its block.
 constexpr double skin_ratio = 0.05;
-// Tetrahedra that had a node of the mesh in common may overlap by this part of their height: around the node they fill all
-// space between them, and whatever strain they have makes them overlap.
-constexpr double slack_ratio = 0.005;
 // Rings of tetrahedra below the surface for which pairs are found too: cracks will open some of them.
 constexpr int rings_below = 2;
 // Steps for which pairs are near.
@@ -53,13 +50,6 @@ std::vector<TetPair> held_by_faces(const Model& model, const State& state, const
   }
   std::sort(held.begin(), held.end());
   return held;
-}
-
-bool had_a_node_in_common(const Model& model, const SurfaceTet& a, const SurfaceTet& b) {
-  const std::vector<int>& original = model.surface.original;
-  return std::any_of(a.nodes.begin(), a.nodes.end(), [&](int m) {
-    return std::any_of(b.nodes.begin(), b.nodes.end(), [&](int n) { return original[m] == original[n]; });
-  });
 }
 
 bool may_touch(const TetContacts& of, const SurfaceTet& a, const SurfaceTet& b) {
@@ -136,10 +126,7 @@ void add_near(const Model& model, const std::vector<TetPair>& pairs, TetContacts
       const SurfaceTet &one = to.tets[a], &other = to.tets[b];
       to.pairs.a.push_back(a);
       to.pairs.b.push_back(b);
-      to.slack.push_back(
-          had_a_node_in_common(model, one, other)
-              ? static_cast<float>(slack_ratio * std::min(one.size.height, other.size.height))
-              : 0);
+      to.slack.push_back(static_cast<float>(edge_slack(model, one.tet, other.tet)));
       to.pairs.allowed.push_back(rounded_down(apart));
       to.may_touch.push_back(static_cast<char>(may_touch(to, one, other)));
     }

@@ -38,7 +38,7 @@ struct TetContacts {
   double skin = 0;                         // m, how far any may go before the pairs are found anew
 
   // Pairs, into `tets`, a < b; by a, then b.
-  std::vector<float> slack; // m, overlap at which a pair begins to press
+  std::vector<float> slack; // m, phi of edges at which they begin to press (press_tets.hpp)
   WatchedPairs pairs;
   std::vector<char> may_touch;
   bool fresh = true; // some pairs may not touch any more: their contacts have ended

@@ -91,12 +91,15 @@ public:
     asked_ = question.asked.data() + begin;
     const std::size_t count = end - begin;
     phi0_.resize(count);
+    slack_.resize(count);
     deepest_.assign(count, 0.0);
+    point_.assign(count, 0.0);
     result_.assign(count, {-1, 0});
     std::vector<std::size_t> pressed, others, meet, come;
     for (std::size_t i = 0; i < count; ++i) {
       const Contact* const before = asked_[i].before;
-      phi0_[i] = before ? before->reference_penetration : slack_of(i);
+      slack_[i] = slack_of(i);
+      phi0_[i] = before ? before->reference_penetration : 0;
       (before && before->effective_penetration() > 0 ? pressed : others).push_back(i);
     }
     press(pressed);
@@ -104,13 +107,12 @@ public:
       if (!(energy(i) > 0))
         others.push_back(i);
     look(others, bound_deepest);
-    // What is known is that they overlap by no more than this: often that is enough.
     for (const std::size_t i : others)
-      if (deepest_[i] > trusted * slack_of(i))
+      if (deepest_[i] > 0)
         meet.push_back(i);
     look(meet, find_deepest);
     for (const std::size_t i : meet)
-      if (deepest_[i] > phi0_[i])
+      if (overlap(i) > phi0_[i])
         come.push_back(i);
     press(come);
     out_.forces.reserve(pressed.size() + come.size());
@@ -135,6 +137,7 @@ private:
   const SurfaceTet& first(std::size_t i) const { return of_.tets[of_.near.a[asked_[i].near]]; }
   const SurfaceTet& second(std::size_t i) const { return of_.tets[of_.near.b[asked_[i].near]]; }
   double slack_of(std::size_t i) const { return of_.slack[of_.place_of_near[asked_[i].near]]; } // m
+  double overlap(std::size_t i) const { return std::max(point_[i], deepest_[i] - slack_[i]); } // m
   double energy(std::size_t i) const {
     return result_[i].first >= 0 ? batches_[result_[i].first].energy[result_[i].second] : 0;
   }
@@ -148,8 +151,10 @@ private:
       views[k / lanes].set(static_cast<int>(k % lanes), first(i).nodes, second(i).nodes);
     }
     kernel(of_.place.data(), views.data(), static_cast<std::int64_t>(full));
-    for (std::size_t k = 0; k < at.size(); ++k)
+    for (std::size_t k = 0; k < at.size(); ++k) {
       deepest_[at[k]] = views[k / lanes].deepest[k % lanes];
+      point_[at[k]] = views[k / lanes].point[k % lanes];
+    }
   }
 
   void press(const std::vector<std::size_t>& at) {
@@ -161,7 +166,8 @@ private:
       const int lane = static_cast<int>(k % lanes);
       batch.of.set(lane, first(i).nodes, second(i).nodes);
       batch.phi0[lane] = phi0_[i];
-      batch.stiffness[lane] = law_of(i).corner;
+      batch.phi1[lane] = phi0_[i] + slack_[i];
+      batch.stiffness[lane] = law_of(i).face;
       result_[i] = {static_cast<int>(before + k / lanes), lane};
     }
     press_pairs(of_.place.data(), batches_.get() + before, static_cast<std::int64_t>(more));
@@ -180,7 +186,6 @@ private:
   void finish(std::size_t i) {
     const SurfaceTet &a = first(i), &b = second(i);
     const Contact* const before = asked_[i].before;
-    const double slack = slack_of(i);
     Contact c(Contact::tets, a.tet);
     c.target = c.fragment = b.tet;
     if (before)
@@ -190,25 +195,25 @@ private:
       const Push push(*this, batches_[result_[i].first], result_[i].second);
       if (!before) {
         c.normal = push.normal;
-        c.reference_penetration = slack;
-        if (deepest_[i] - slack > -1.5 * push.slid.dot(push.normal)) { // it did not come within the step
-          c.reference_penetration = deepest_[i];
+        if (overlap(i) > -1.5 * push.slid.dot(push.normal)) { // it did not come within the step
+          c.reference_penetration = overlap(i);
           energy = 0;
         }
       }
       if (energy > 0) {
         allowed_.push_back(0);
-        act(push, before, energy, law_of(i).law, std::min(a.size.height, b.size.height), c);
+        act(push, before, energy, law_of(i), std::min(a.size.height, b.size.height), c);
         return;
       }
     }
     if (before && before->effective_penetration() > 0)
       lose(*before, law_of(i).law);
-    if (!(deepest_[i] > slack)) {
-      allowed_.push_back(trusted * slack - deepest_[i]);
+    if (!(overlap(i) > 0)) { // what parts them, or the points from the other, and the edges from their slack
+      allowed_.push_back(deepest_[i] <= 0 ? -deepest_[i]
+                                          : std::min(-point_[i], trusted * (slack_[i] - deepest_[i])));
       return;
     }
-    allowed_.push_back(trusted * std::min(c.reference_penetration - deepest_[i], deepest_[i] - slack));
+    allowed_.push_back(trusted * std::min(c.reference_penetration - overlap(i), overlap(i)));
     c.depth = c.reference_penetration;
     c.shear = geom::Vec3::Zero();
     c.damping = 0;
@@ -243,7 +248,9 @@ private:
     geom::Vec3 normal, slid;           // unit, on the first; m
   };
 
-  void act(const Push& push, const Contact* before, double energy, ContactLaw law, double height, Contact& c) {
+  void act(const Push& push, const Contact* before, double energy, const TetPairLaw& of_pair, double height,
+           Contact& c) {
+    ContactLaw law = of_pair.law;
     // The spring that has this force and energy.
     const double pressed = 2 * energy / push.force;
     law.kn = push.force / pressed;
@@ -271,8 +278,10 @@ private:
     out_.forces.push_back(at);
     out_.contacts.push_back(c);
     out_.depth = std::max(out_.depth, pressed);
-    if (pressed / height > out_.depth_over_height) {
-      out_.depth_over_height = pressed / height;
+    // How deep a face would be in a face with this energy: that grows with the overlap, wherever the forces point.
+    const double depth = std::sqrt(2 * energy / of_pair.face);
+    if (depth / height > out_.depth_over_height) {
+      out_.depth_over_height = depth / height;
       out_.deepest = {static_cast<int>(c.source), c.target};
     }
   }
@@ -307,7 +316,7 @@ private:
   std::unique_ptr<TetPairPress[]> batches_{new TetPairPress[2 * pairs_per_chunk / lanes]};
   std::size_t n_batches_ = 0;
   std::vector<std::pair<int, int>> result_; // batch and lane of the force; -1: none was asked for
-  std::vector<double> phi0_, deepest_, allowed_; // m
+  std::vector<double> slack_, phi0_, deepest_, point_, allowed_; // m
   int block_ = -1;                               // whose law is known
   const Joint* joint_ = nullptr;
   double tan_friction_ = 0;

@@ -65,8 +65,17 @@ TetPairLaw tet_pair_law(const Model& model, const Joint& joint, double tan_frict
   const double modulus = model.bodies[model.blocks[block].body].material.youngs_modulus;
   const ContactStiffness face = contact_stiffness(joint, (a.height + b.height) / modulus);
   const double area = 0.5 * (a.area + b.area), e2 = joint.restitution * joint.restitution;
-  return {face.normal * 0.5 * (1 + e2) * area / 6,
-          {0, face.shear * area / 3, tan_friction, (1 - e2) / (1 + e2)}};
+  return {face.normal * 0.5 * (1 + e2) * area, {0, face.shear * area / 3, tan_friction, (1 - e2) / (1 + e2)}};
+}
+
+double edge_slack(const Model& model, int tet_a, int tet_b) {
+  constexpr double part = 0.005;
+  const std::vector<int>& original = model.surface.original;
+  const geom::Tet &a = model.tets[tet_a], &b = model.tets[tet_b];
+  const bool common = std::any_of(a.begin(), a.end(), [&](int m) {
+    return std::any_of(b.begin(), b.end(), [&](int n) { return original[m] == original[n]; });
+  });
+  return common ? part * std::min(tet_size(model, tet_a).height, tet_size(model, tet_b).height) : 0;
 }
 
 namespace {
@@ -83,6 +92,7 @@ ContactArms tet_arms(const Model& model, const State& state, const Contact& c) {
     std::fill_n(batch.of.node[k], lanes, k);
   }
   std::fill_n(batch.phi0, lanes, c.reference_penetration);
+  std::fill_n(batch.phi1, lanes, c.reference_penetration + edge_slack(model, static_cast<int>(c.source), c.target));
   std::fill_n(batch.stiffness, lanes, 1.0);
   press_pairs(place.data(), &batch, 1);
   geom::Vec3 sum = geom::Vec3::Zero();

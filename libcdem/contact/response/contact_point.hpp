@@ -17,18 +17,20 @@ ContactLaw spring_law(const Model&, const Joint&, double tan_friction, const Con
 ContactLaw edge_law(const Model&, const Joint&, double tan_friction, const std::array<int, 2>& from,
                     const std::array<int, 2>& to, const std::array<double, 2>& parts = {1, 1});
 
-// Means of a tetrahedron's faces and heights, undeformed. A pair of tetrahedra of one block is as stiff as a face on a face:
-// at its corners and edges together, and in shear.
+// Means of a tetrahedron's faces and heights, undeformed.
 struct TetSize {
   double area = 0, height = 0; // m2, m
 };
 TetSize tet_size(const Model&, int tet);
 struct TetPairLaw {
-  double corner = 0; // N/m, of the potential (tet_potential.hpp)
-  ContactLaw law;    // kn follows from force and energy of the moment
+  double face = 0; // N/m, stiffness of the potential (tet_potential.hpp)
+  ContactLaw law;  // kn follows from force and energy of the moment
 };
 TetPairLaw tet_pair_law(const Model&, const Joint&, double tan_friction, int block, const TetSize& a,
                         const TetSize& b);
+// m. Around a node of the mesh tetrahedra fill all space between them, and whatever strain they have makes their edges
+// overlap: where they had one in common, edges begin to press later by this, a small part of the lower height; else 0.
+double edge_slack(const Model&, int tet_a, int tet_b);
 
 // The two blocks of a contact, its source's first.
 std::pair<int, int> blocks_of(const Model&, const Contact&);

@@ -21,7 +21,9 @@ CDEM_INLINE void deepest_kernel(const Node* place, TetPairView* views, std::int6
       const V by_plane = -simd::most<V>(parted_by_plane<V>(in_a), parted_by_plane<V>(in_b));
       V deepest = simd::least<V>(by_plane, simd::most<V>(no_deeper_than<V>(in_a), no_deeper_than<V>(in_b)));
       if (exactly && simd::any(by_plane >= V{}))
-        deepest = simd::most<V>(deepest_in_tet<V>(in_a), deepest_in_tet<V>(in_b));
+        deepest = simd::most<V>(deepest_edge<V>(in_a), deepest_edge<V>(in_b));
+      if (exactly)
+        simd::store_wide<V>(views[i].point + lane, simd::most<V>(deepest_point<V>(in_a), deepest_point<V>(in_b)));
       simd::store_wide<V>(views[i].deepest + lane, deepest);
     }
 }
@@ -32,10 +34,10 @@ CDEM_INLINE void press_kernel(const Node* place, TetPairPress* batches, std::int
     for (int lane = 0; lane < lanes; lane += simd::width<V>) {
       TetPairPress& batch = batches[i];
       const TetCorners<V> a = corners<V>(place, batch.of, 0, lane), b = corners<V>(place, batch.of, 1, lane);
-      const V phi0 = simd::load_wide<V>(batch.phi0 + lane), k = simd::load_wide<V>(batch.stiffness + lane);
+      const V phi0 = simd::load_wide<V>(batch.phi0 + lane), phi1 = simd::load_wide<V>(batch.phi1 + lane), k = simd::load_wide<V>(batch.stiffness + lane);
       TetCorners<V> on_a{}, on_b{};
-      V energy = press_into_tet<V>(a, b, phi0, k, on_a, on_b);
-      energy += press_into_tet<V>(b, a, phi0, k, on_b, on_a);
+      V energy = press_into_tet<V>(a, b, phi0, phi1, k, on_a, on_b);
+      energy += press_into_tet<V>(b, a, phi0, phi1, k, on_b, on_a);
       simd::store_wide<V>(batch.energy + lane, energy);
       for (int j = 0; j < 4; ++j) {
         simd::store_wide<V>(batch.force[j][0] + lane, on_a[j].x);

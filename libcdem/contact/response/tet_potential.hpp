@@ -4,13 +4,15 @@
 //
 //   phi(x) = min over its planes k of D_k(x),   D_k = depth of x below plane k, less phi0
 //
-// The corners and the edges of the other tetrahedron, the source, lie in it. With the stiffness k of the pair (N/m):
+// The other tetrahedron, the source, stands in it with three points on each face, its semi-springs, a little away from the face's
+// corners, and with its edges. With the stiffness k of a face on a face (N/m):
 //
-//   U = k/4 (sum over corners of phi+^2 + sum over edges of the integral of phi+^2 over the edge's own length, 0 to 1)
+//   U = k/12 sum over points of (phi - phi0)+^2 + k/24 sum over edges of the integral of (phi - phi1)+^2 from 0 to 1 along the edge
 //
-// and the same the other way round. Over an edge phi is linear piece by piece, so the integral is closed, and the forces at all
-// eight corners are the exact gradient of U: they keep momentum, angular momentum and energy.
-// phi0 (m) is the overlap that a pair may have without a force.
+// and the same the other way round: two faces that lie on each other have the stiffness k. Over an edge phi is linear piece by
+// piece, so the integral is closed, and the forces at all eight corners are the exact gradient of U: they keep momentum, angular
+// momentum and energy. phi0 and phi1 (m) are overlaps without a force. Where faces of a mesh lie on each other corner on corner, the
+// edges of each stand on the edges of the other and have no depth; the points carry.
 #pragma once
 
 #include "libcdem/parallel/simd.hpp"
@@ -22,6 +24,8 @@
 namespace cdem {
 
 inline constexpr std::array<std::array<int, 3>, 4> planes_of_tet{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+// Part by which a face's points stand away from their corners, towards each of the two others.
+inline constexpr double towards_others = 0.005;
 inline constexpr std::array<std::array<int, 2>, 6> edges_of_tet{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
@@ -95,9 +99,33 @@ CDEM_INLINE V no_deeper_than(const DepthsInTet<V>& at) {
   return simd::least<V>(deepest, -parted_by_plane<V>(at));
 }
 
-// m, the largest min over k of D_k on the corners and edges of the source; below 0: as far, at least, they all stand outside.
+// m, below plane k: the point of a face's corner i; j, l: its other corners.
 template <class V>
-CDEM_INLINE V deepest_in_tet(const DepthsInTet<V>& at) {
+CDEM_INLINE V depth_of_point(const std::array<V, 4>& d, int i, int j, int l) {
+  return (1 - 2 * towards_others) * d[i] + towards_others * (d[j] + d[l]);
+}
+
+template <class V>
+CDEM_INLINE V phi_of_point(const DepthsInTet<V>& at, int i, int j, int l) {
+  V phi = depth_of_point<V>(at.depth[0], i, j, l);
+  for (int k = 1; k < 4; ++k)
+    phi = simd::least<V>(phi, depth_of_point<V>(at.depth[k], i, j, l));
+  return phi;
+}
+
+// m, the largest phi at the points of the source; below 0: as far, at least, they all stand outside.
+template <class V>
+CDEM_INLINE V deepest_point(const DepthsInTet<V>& at) {
+  V deepest = V{} - 1e300;
+  for (const auto& face : planes_of_tet)
+    for (int corner = 0; corner < 3; ++corner)
+      deepest = simd::most<V>(deepest, phi_of_point<V>(at, face[corner], face[(corner + 1) % 3], face[(corner + 2) % 3]));
+  return deepest;
+}
+
+// m, the largest phi on the edges of the source, their ends among them; below 0: as far, at least, they all stand outside.
+template <class V>
+CDEM_INLINE V deepest_edge(const DepthsInTet<V>& at) {
   const auto& d = at.depth;
   V deepest = V{} - 1e300;
   for (int i = 0; i < 4; ++i)
@@ -125,33 +153,39 @@ CDEM_INLINE V deepest_in_tet(const DepthsInTet<V>& at) {
   return deepest;
 }
 
-// Adds the forces of the source in the target's field to both, N. Returns U, J. k: N/m.
+// Adds the forces of the source in the target's field to both, N. Returns U, J. phi0, phi1: m; k: N/m.
 template <class V>
-CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& source, const V& phi0, const V& k,
-                             TetCorners<V>& on_target, TetCorners<V>& on_source) {
+CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& source, const V& phi0, const V& phi1,
+                             const V& k, TetCorners<V>& on_target, TetCorners<V>& on_source) {
   using Mask = simd::MaskOf<V>;
   DepthsInTet<V> at = depths_in_tet<V>(target, source);
   auto& d = at.depth;
-  const V zero{}, one = zero + 1.0, never = zero + 2.0, half = 0.5 * k;
+  const V zero{}, one = zero + 1.0, never = zero + 2.0, of_point = (1.0 / 6) * k, half = (1.0 / 12) * k;
   std::array<std::array<V, 4>, 4> share{}; // N, of plane [k], at corner [i] of the source
+  V energy{};
+  if (simd::any(deepest_point<V>(at) > phi0))
+    for (const auto& face : planes_of_tet)
+      for (int corner = 0; corner < 3; ++corner) {
+        const int i = face[corner], j = face[(corner + 1) % 3], l = face[(corner + 2) % 3];
+        const V phi = phi_of_point<V>(at, i, j, l);
+        const Mask inside = phi > phi0;
+        if (!simd::any(inside))
+          continue;
+        const V deep = inside ? phi - phi0 : zero, pressed = of_point * deep;
+        energy += 0.5 * pressed * deep;
+        Mask used = phi != phi;
+        for (int plane = 0; plane < 4; ++plane) {
+          const Mask here = (depth_of_point<V>(d[plane], i, j, l) == phi) & ~used;
+          used |= here;
+          const V force = here ? pressed : zero;
+          share[plane][i] += (1 - 2 * towards_others) * force;
+          share[plane][j] += towards_others * force;
+          share[plane][l] += towards_others * force;
+        }
+      }
   for (int plane = 0; plane < 4; ++plane)
     for (int i = 0; i < 4; ++i)
-      d[plane][i] -= phi0;
-  V energy{};
-  for (int i = 0; i < 4; ++i) {
-    const V phi = simd::least<V>(simd::least<V>(d[0][i], d[1][i]), simd::least<V>(d[2][i], d[3][i]));
-    const Mask inside = phi > zero;
-    if (!simd::any(inside))
-      continue;
-    const V pressed = inside ? half * phi : zero;
-    energy += 0.5 * pressed * phi;
-    Mask used = phi != phi;
-    for (int plane = 0; plane < 4; ++plane) {
-      const Mask here = (d[plane][i] == phi) & ~used;
-      used |= here;
-      share[plane][i] += here ? pressed : zero;
-    }
-  }
+      d[plane][i] -= phi1;
   for (const auto& [p, q] : edges_of_tet) {
     // The part of the edge inside all planes.
     V from = zero, to = one;
@@ -217,8 +251,9 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
 // Some pairs side by side, as kernels read them: nodes 0 to 3 are those of the first tetrahedron, 4 to 7 those of the second.
 struct TetPairView {
   std::int32_t node[8][lanes];
-  // m, the largest overlap; below 0: the two are at least as far from each other.
+  // m, the largest phi on edges; below 0: the two are at least as far from each other.
   double deepest[lanes];
+  double point[lanes]; // m, the largest phi of points
 
   void set(int lane, const std::array<int, 4>& a, const std::array<int, 4>& b) {
     for (int k = 0; k < 4; ++k) {
@@ -230,7 +265,7 @@ struct TetPairView {
 
 struct TetPairPress {
   TetPairView of;
-  double phi0[lanes];        // m
+  double phi0[lanes], phi1[lanes]; // m
   double stiffness[lanes];   // N/m
   double energy[lanes];      // J
   double force[8][3][lanes]; // N
@@ -240,7 +275,7 @@ struct TetPairPress {
   }
 };
 
-// place: m, of nodes (x, y, z). The first writes into `deepest` what is at least as large, and costs less.
+// place: m, of nodes (x, y, z). The first writes into `deepest` what is at least as large, and costs less; nothing into `point`.
 void bound_deepest(const Node* place, TetPairView*, std::int64_t count);
 void find_deepest(const Node* place, TetPairView*, std::int64_t count);
 void press_pairs(const Node* place, TetPairPress*, std::int64_t count);
