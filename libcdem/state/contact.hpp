@@ -28,6 +28,7 @@ struct Contact {
   double depth = 0;     // m, below the target's surface
   double damping = 0;   // N, what restitution adds to the spring's normal force
   double stiffness = 0; // N/m, of its normal spring (as_stiff_as); 0: that of its law
+  double field = 0; // N/m, of tetrahedra: stiffness of their potential, where they took over the force of a face; 0: that of their law
 
   explicit Contact(Kind of = spring, int from = 0)
       : kind(of & 3u), source(static_cast<std::uint32_t>(from) & 0x3fffffffu) {}

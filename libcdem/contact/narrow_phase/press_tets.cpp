@@ -142,8 +142,7 @@ private:
     return result_[i].first >= 0 ? batches_[result_[i].first].energy[result_[i].second] : 0;
   }
 
-  template <class Kernel>
-  void look(const std::vector<std::size_t>& at, const Kernel& kernel) {
+  void look(const std::vector<std::size_t>& at, void (*kernel)(const Node*, TetPairView*, std::int64_t)) {
     const std::size_t full = (at.size() + lanes - 1) / lanes;
     std::array<TetPairView, pairs_per_chunk / lanes> views;
     for (std::size_t k = 0; k < lanes * full; ++k) {
@@ -153,7 +152,7 @@ private:
     kernel(of_.place.data(), views.data(), static_cast<std::int64_t>(full));
     for (std::size_t k = 0; k < at.size(); ++k) {
       deepest_[at[k]] = views[k / lanes].deepest[k % lanes];
-      point_[at[k]] = views[k / lanes].point[k % lanes];
+      point_[at[k]] = kernel == find_deepest ? views[k / lanes].point[k % lanes] : deepest_[at[k]];
     }
   }
 
@@ -167,10 +166,15 @@ private:
       batch.of.set(lane, first(i).nodes, second(i).nodes);
       batch.phi0[lane] = phi0_[i];
       batch.phi1[lane] = phi0_[i] + slack_[i];
-      batch.stiffness[lane] = law_of(i).face;
+      batch.stiffness[lane] = field_of(i);
       result_[i] = {static_cast<int>(before + k / lanes), lane};
     }
     press_pairs(of_.place.data(), batches_.get() + before, static_cast<std::int64_t>(more));
+  }
+
+  double field_of(std::size_t i) { // N/m
+    const Contact* const before = asked_[i].before;
+    return before && before->field > 0 ? before->field : law_of(i).face;
   }
 
   TetPairLaw law_of(std::size_t i) {

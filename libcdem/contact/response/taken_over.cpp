@@ -107,7 +107,8 @@ double take_over(const Model& model, State& state, const ContactWork& work, cons
   geom::Vec3 force = geom::Vec3::Zero(); // N, on side a
   for (const geom::Vec3& at_corner : of.left.force)
     force += at_corner;
-  const double pressing = -force.dot(unit_normal(corners_of(model, state, side.nodes)));
+  const geom::Vec3 outward = unit_normal(corners_of(model, state, side.nodes));
+  const double pressing = -force.dot(outward);
   if (!(pressing > 0) || !touches_itself(model, work, side.block))
     return of.left.energy;
   Contact& c = contact_of(state.contacts, side.tet, other);
@@ -116,12 +117,18 @@ double take_over(const Model& model, State& state, const ContactWork& work, cons
   const ContactLaw law = law_of(model, c);
   const double before = c.effective_penetration() > 0 ? energy(c, law) : 0,
                has = c.effective_penetration() * law.kn;
+  // As stiff as both together, so that they store what they stored, and never softer than the law.
   const Joint& joint = *contact_joint(model, side.block, side.block);
-  PairAt pair(model, state, c,
-              tet_pair_law(model, joint, 0, side.block, tet_size(model, static_cast<int>(c.source)),
-                           tet_size(model, c.target))
-                  .face);
-  set_force(pair, has + pressing, c);
+  const double softest = tet_pair_law(model, joint, 0, side.block, tet_size(model, static_cast<int>(c.source)),
+                                      tet_size(model, c.target))
+                             .face,
+               normal = has + pressing;
+  double stored = before; // J
+  for (const geom::Vec3& at_corner : of.left.force)
+    stored += 0.5 * at_corner.dot(outward) * at_corner.dot(outward) / of.left.stiffness;
+  c.field = std::max(softest, 0.5 * normal * normal / stored);
+  PairAt pair(model, state, c, c.field);
+  set_force(pair, normal, c);
   c.shear += force - force.dot(c.normal) * c.normal;
   return of.left.energy - energy(c, law_of(model, c)) + before;
 }
