@@ -76,7 +76,6 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   ContactSums sums;
   if (model.surface.empty() || !own.due)
     return sums;
-  if(getenv("CDEM_ALL"))own.looks_at_all=true;
   own.blocks_due = own.blocks_due || own.looks_at_all;
   std::fill(own.changed.begin(), own.changed.end(), Change::none);
   const bool out_of_skin = add_displacements(model, state, own, threads) || own.looks_at_all,
