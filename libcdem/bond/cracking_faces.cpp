@@ -40,8 +40,8 @@ CDEM_INLINE Group<V> group_of(const CohesiveChunk& chunk, const int* faces, int 
   return g;
 }
 
-// What the faces of a group remember, side by side. A face's numbers stand one behind the other (state/cohesive_face.hpp): they
-// are read and written in runs as long as a vector, and turned over.
+// The faces of a group, with all that they remember, side by side. A face's numbers stand one behind the other
+// (state/cohesive_face.hpp): they are read and written in runs as long as a vector, and turned over.
 template <class V>
 class Memories {
   static constexpr int offset = offsetof(CohesiveFace, offset) / sizeof(double),
@@ -192,7 +192,7 @@ CDEM_INLINE MaskOf<V> everywhere(bool value) {
   return MaskOf<V>{} - static_cast<std::int64_t>(value);
 }
 
-// What the joint of all faces says.
+// The joint that all faces have, read once.
 template <class V>
 CDEM_INLINE SofteningJoint<V> joint_of_all(const CohesiveChunk& chunk) {
   Joint room;

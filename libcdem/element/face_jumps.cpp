@@ -12,7 +12,7 @@ namespace {
 using simd::Oct;
 using simd::Vec;
 
-// What one tet has of a StressBatch or JumpBatch: faces ask for tets one by one.
+// One tet of a StressBatch or JumpBatch: faces ask for tets one by one.
 struct alignas(64) TetRow {
   double component[lanes]; // six and two of zero
 };

@@ -90,7 +90,7 @@ std::vector<geom::Mat3> velocity_jumps(const Model& model, const State& state,
   return jumps;
 }
 
-// What the strain of a tet depends on: sum of sym(u of the node (x) gradient), with the nodes beyond its freed faces.
+// The strain of a tet depends on this: sum of sym(u of the node (x) gradient), with the nodes beyond its freed faces.
 struct Reach {
   double volume = 0;
   std::vector<std::pair<int, geom::Vec3>> gradients; // 1/m

@@ -132,7 +132,7 @@ double median_edge_pixels(const Snapshot& s, const std::vector<Vec3>& points, co
   return *middle;
 }
 
-// Of lines that mark joints; among small blocks thick ones would merge.
+// Lines that mark joints have this width; among small blocks thicker ones would merge.
 double marked_width(const SceneInput& in, const View& view) {
   return std::clamp(0.07 * median_edge_pixels(in.snapshot, in.points, view), 1.5 * in.pixel,
                     broken_width * in.pixel);

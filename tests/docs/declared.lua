@@ -1,4 +1,4 @@
--- What the declarations say (`cdem annotations`), and where a snippet says otherwise: functions and
+-- The declarations (`cdem annotations`), and where a snippet says otherwise: functions and
 -- methods that there are not, and fields that they do not take.
 local pages = require "pages"
 
