@@ -1,6 +1,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 
 #include "libcdem/bond/interface_frame.hpp"
+#include "libcdem/bond/interface_turn.hpp"
 #include "libcdem/bond/spring_kernel.hpp"
 #include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
@@ -101,8 +102,9 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
   const geom::Vec3& n = point.normal;
   const SpringStrength& strength = work.strength[point.interface];
   const geom::Vec3 stretch = j - state.bond_offset[p];
-  const double open = stretch.dot(n);
-  const geom::Vec3 shear = stretch - open * n;
+  const SpringStretch<double> parts = parts_of(triple(stretch), triple(n));
+  const double open = parts.open;
+  const geom::Vec3 shear = vec(parts.shear);
   bool broke = false;
   if (is_intact(state.bond_mode[p])) {
     if constexpr (special)
@@ -120,7 +122,8 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
       }
     }
     if (!broke) {
-      work.spring_force[p] = point.kn_area * open * n + point.ks_area * shear;
+      work.spring_force[p] =
+          vec(spring_force<double>(point.kn_area, point.ks_area, triple(n), parts, {1, 1}));
       if constexpr (special)
         if (!work.laws.empty())
           work.stretch[p] = stretch;
@@ -133,20 +136,21 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
       return;
     }
   // Contact: the spring was never bonded or has broken, at the latest just now.
-  const SpringResponse r =
-      contact_response(interface.kn, interface.ks, strength.tan_friction, n, j, state.bond_offset[p]);
-  state.bond_offset[p] = r.offset;
-  const geom::Vec3 before = work.spring_force[p] / point.area;
-  work.spring_force[p] = point.area * r.traction;
-
-  const geom::Vec3 normal_before = before.dot(n) * n, normal_after = r.traction.dot(n) * n;
-  const double lost =
-      point.area * lost_energy(interface.ks, before - normal_before, r.traction - normal_after, shear);
+  const HeldByContact<double> held = held_by_contact<double>(
+      point.kn_area, point.ks_area, strength.tan_friction, open, root(dot(parts.shear, parts.shear)));
+  const Triple<double> slip = (1 - held.shear) * parts.shear;
+  const geom::Vec3 before = work.spring_force[p];
+  if (held.shear < 1)
+    state.bond_offset[p] += vec(slip);
+  work.spring_force[p] = vec(spring_force(point.kn_area, point.ks_area, triple(n), parts, held));
   if (!broke) {
-    sums.friction += lost;
+    sums.friction += lost_by_slip(point.ks_area, triple(n), parts, held, triple(before), slip);
     return;
   }
-  const double taken = lost + point.area * lost_energy(interface.kn, normal_before, normal_after, open * n);
+  const geom::Vec3 after = work.spring_force[p], normal_before = before.dot(n) * n,
+                   normal_after = after.dot(n) * n;
+  const double taken = lost_energy(point.ks_area, before - normal_before, after - normal_after, shear) +
+                       lost_energy(point.kn_area, normal_before, normal_after, open * n);
   sums.breaking += taken;
   sums.losses.push_back({point.interface, {}});
   sums.losses.back().energy.add(
@@ -158,29 +162,6 @@ geom::Vec3 water_force(const State& state, const BondPoint& point, std::int64_t 
   if (state.water_pressure.empty())
     return geom::Vec3::Zero();
   return -state.water_pressure[p] * point.area * point.normal;
-}
-
-// Stiffness damping of a spring that holds or presses, beside its own force; rate: m/s, of its stretch in undeformed
-// directions. A contact takes no tension from it, none at all while it is open, no shear while it slides, and no more shear
-// than friction leaves. strength: Pa, in shear under a pressure.
-template <class Strength>
-geom::Vec3 viscous_force(const BondPoint& point, const Interface& interface, std::uint8_t mode,
-                         const geom::Vec3& spring, const geom::Vec3& rate, double beta,
-                         const Strength& strength, bool slid) {
-  const double opening = rate.dot(point.normal), normal = beta * interface.kn * point.area * opening;
-  const geom::Vec3 shear = beta * interface.ks * point.area * (rate - opening * point.normal);
-  if (is_intact(mode))
-    return normal * point.normal + shear;
-  const double pressing = spring.dot(point.normal);
-  if (pressing >= 0)
-    return geom::Vec3::Zero();
-  double part = 0;
-  if (!slid) {
-    const double own = (spring - pressing * point.normal).norm(),
-                 left = std::max(0.0, point.area * strength(-pressing / point.area) - own);
-    part = held_by_friction(shear.norm(), left);
-  }
-  return std::min(normal, -pressing) * point.normal + part * shear;
 }
 
 // s, of a spring: that of its joint, and of a contact at least what the step asks for.
@@ -197,6 +178,43 @@ struct SpringsOfChunk {
   SpringSums& sums;
   bool breaking, acts_otherwise, damped;
 };
+
+// Stiffness damping of a spring that holds or presses, beside its own force, N, in undeformed directions. rate: m/s,
+// of its stretch; j: m, its relative displacement.
+template <bool special>
+geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3& rate, const geom::Vec3& j,
+                         const geom::Vec3& offset_before) {
+  const BondPoint& point = c.model.points[p];
+  const BondWork& work = c.work;
+  const std::uint8_t mode = c.state.bond_mode[p];
+  const double beta = damping_of_spring(work, point.interface, mode), kn = point.kn_area, ks = point.ks_area;
+  const Triple<double> n = triple(point.normal);
+  if (is_intact(mode)) {
+    const SpringStretch<double> of_rate = parts_of(triple(rate), n);
+    return vec(spring_force<double>(beta * kn, beta * ks, n, of_rate, {1, 1}));
+  }
+  const auto viscous = [&](double normal_force, double left, bool slides) {
+    const bool presses = normal_force < 0;
+    return vec(viscous_of_contact<double>(beta, kn, ks, n, triple(rate), -normal_force, left, presses,
+                                          presses && !slides));
+  };
+  if constexpr (special)
+    if (!work.laws.empty() && work.laws[point.interface].law) {
+      const InterfaceLaw& own = work.laws[point.interface];
+      const geom::Vec3& force = work.spring_force[p];
+      const double normal_force = force.dot(point.normal),
+                   strength = joint_strength(*own.law, own.spring, std::max(0.0, -normal_force / point.area),
+                                             c.state.joint_history[p].path),
+                   shear = (force - normal_force * point.normal).norm();
+      return viscous(normal_force, std::max(0.0, point.area * strength - shear),
+                     c.state.bond_offset[p] != offset_before);
+    }
+  const SpringStretch<double> parts = parts_of(triple(geom::Vec3(j - offset_before)), n);
+  const double tan = work.strength[point.interface].tan_friction,
+               length = root(dot(parts.shear, parts.shear)), normal_force = kn * parts.open;
+  return viscous(normal_force, friction_left<double>(ks, tan, normal_force, length),
+                 held_by_contact<double>(kn, ks, tan, parts.open, length).shear < 1);
+}
 
 // One spring of any kind; rotation: of its interface.
 template <bool special>
@@ -219,29 +237,21 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
       work.acting_force[p] = rotation * water_force(state, point, p);
     return;
   }
-  const geom::Vec3 offset_before = state.bond_offset[p];
-  update_spring<special>(point, interface, state, work, p, rotation.transpose() * jump_at(c.model, p, u),
-                         c.sums, c.breaking);
-  work.acting_force[p] = rotation * (work.spring_force[p] + water_force(state, point, p));
-  if (!c.damped)
-    return;
-  // What damping takes over a step is the mean of its forces before and after it times the motion.
-  const geom::Vec3 rate = rotation.transpose() * jump_at(point, state.velocity.data());
-  const auto strength = [&](double pressure) {
-    if constexpr (special)
-      if (!work.laws.empty() && work.laws[point.interface].law) {
-        const InterfaceLaw& own = work.laws[point.interface];
-        return joint_strength(*own.law, own.spring, pressure, state.joint_history[p].path);
-      }
-    return friction_limit(pressure, work.strength[point.interface].tan_friction);
-  };
-  geom::Vec3& viscous = work.viscous[p];
-  const geom::Vec3 before = viscous;
-  viscous = viscous_force(point, interface, state.bond_mode[p], work.spring_force[p], rate,
-                          damping_of_spring(work, point.interface, state.bond_mode[p]), strength,
-                          state.bond_offset[p] != offset_before);
-  work.acting_force[p] += rotation * viscous;
-  c.sums.damping += 0.5 * (before + viscous).dot(rate) * work.damping_step;
+  const Rotation<double> turn{triple(rotation.col(0)), triple(rotation.col(1)), triple(rotation.col(2))};
+  const geom::Vec3 offset_before = state.bond_offset[p],
+                   j = vec(turned_back(turn, triple(jump_at(c.model, p, u))));
+  update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking);
+  geom::Vec3 acting = work.spring_force[p] + water_force(state, point, p);
+  if (c.damped) {
+    // What damping takes over a step is the mean of its forces before and after it times the motion.
+    const geom::Vec3 rate = vec(turned_back(turn, triple(jump_at(point, state.velocity.data()))));
+    geom::Vec3& viscous = work.viscous[p];
+    const geom::Vec3 before = viscous;
+    viscous = viscous_force<special>(c, p, rate, j, offset_before);
+    acting += viscous;
+    c.sums.damping += (0.5 * work.damping_step) * dot(triple(before + viscous), triple(rate));
+  }
+  work.acting_force[p] = vec(turned(turn, triple(acting)));
 }
 
 bool some_released(const Model& model, const State& state, const SpringBatch& batch) {

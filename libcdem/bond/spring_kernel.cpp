@@ -108,34 +108,6 @@ CDEM_INLINE Triples jumps_of(const SpringBatches& all, const SpringBatch& batch,
   return j;
 }
 
-struct ContactLanes {
-  Mask here, press,
-      stick; // to be looked at; of these, those that are closed; of these, those that do not slide
-};
-
-// Damping of contacts beside their own force, as viscous_force of bond/spring_forces.cpp says it.
-CDEM_INLINE Triples viscous_forces(const SpringBatches& all, const SpringBatch& batch,
-                                   const SpringsOfBatch& springs, const Rotation<Oct>& rotation,
-                                   const Triples& n, const Oct& kn, const Oct& ks, const Oct& normal_force,
-                                   const Oct& friction_left, const ContactLanes& is, double& damping) {
-  const Oct none{};
-  const Triples rate = turned_back(rotation, jumps_of(all, batch, springs.velocity)),
-                before = load_triples(springs.viscous);
-  const Oct opening = dot(rate, n), pressing = none - normal_force,
-            wanted = (springs.contact_damping * kn) * opening,
-            normal = is.press ? (wanted < pressing ? wanted : pressing) : none,
-            part = is.stick ? springs.contact_damping * ks : none;
-  const Triples shear = part * (rate - opening * n),
-                viscous = normal * n + held_by_friction(root(dot(shear, shear)), friction_left) * shear;
-  const Oct lost = (0.5 * springs.damping_step) * dot(before + viscous, rate);
-  for (int lane = 0; lane < lanes; ++lane)
-    if (is.here[lane] != 0)
-      damping += lost[lane];
-  store_triples(springs.viscous, {is.here ? viscous.x : before.x, is.here ? viscous.y : before.y,
-                                  is.here ? viscous.z : before.z});
-  return viscous;
-}
-
 CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batch,
                                const SpringsOfBatch& given, unsigned& left, SpringSpent& spent) {
   const SpringsOfBatch springs = given;
@@ -155,11 +127,10 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
                    stiffness = simd::gather_four(&all.interfaces.front().stiffness, place);
   const Oct area = simd::load(batch.area), tan = normal.w;
   const Triples n = {normal.x, normal.y, normal.z}, offset = load_triples(springs.offset),
-                stretch = j - offset;
-  const Oct kn = stiffness.x * area, ks = stiffness.y * area;
-  const Oct open = dot(stretch, n);
-  const Triples shear = stretch - open * n;
-  const Oct normal_force = kn * open, shear2 = ks * ks * dot(shear, shear);
+                before = load_triples(springs.force);
+  const SpringStretch<Oct> stretch = parts_of<Oct>(j - offset, n);
+  const Oct kn = stiffness.x * area, ks = stiffness.y * area, length2 = dot(stretch.shear, stretch.shear);
+  const Oct normal_force = kn * stretch.open, shear2 = ks * ks * length2;
   Mask contact{};
   if (!all_intact(springs.mode))
     for (int lane = 0; lane < lanes; ++lane)
@@ -172,34 +143,36 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
                          (shear2 >= strength * strength));
   }
   left = bits(leaves);
-  Triples force = normal_force * n + ks * shear, viscous{};
+  const Oct none{}, one = none + 1.0;
+  HeldByContact<Oct> held{one, one};
+  Triples viscous{};
   if (simd::any(contact)) {
-    const Oct one = Oct{} + 1.0;
-    HeldByContact<Oct> held = held_by_contact<Oct>(kn, ks, tan, open, root(dot(shear, shear)));
+    held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2));
     held = {contact ? held.normal : one, contact ? held.shear : one};
-    const Triples slip = (one - held.shear) * shear;
     if (simd::any((held.shear < one) & ~leaves)) {
-      const Triples before = load_triples(springs.force), shear_before = before - dot(before, n) * n;
-      const Triples shear_after = (held.shear * ks) * shear;
-      const Oct lost = 0.5 * dot(shear_before + shear_after, slip);
+      const Triples slip = (one - held.shear) * stretch.shear;
+      const Oct lost = lost_by_slip<Oct>(ks, n, stretch, held, before, slip);
       for (int lane = 0; lane < lanes; ++lane)
         if (contact[lane] != 0)
           spent.friction += lost[lane];
       store_triples(springs.offset, offset + slip);
     }
-    force = (held.normal * normal_force) * n + (held.shear * ks) * shear;
     if (springs.viscous) {
-      const Oct left_over = friction_limit<Oct>(Oct{} - normal_force, tan) - ks * root(dot(shear, shear));
-      const Mask here = contact & ~leaves, press = here & (normal_force < Oct{});
-      viscous = viscous_forces(all, batch, springs, rotation, n, kn, ks, normal_force,
-                               (left_over > Oct{} ? left_over : Oct{}),
-                               {here, press, press & ~(held.shear < one)}, spent.damping);
+      const Mask here = contact & ~leaves, press = here & (normal_force < none);
+      const Triples rate = turned_back(rotation, jumps_of(all, batch, springs.velocity)),
+                    viscous_before = load_triples(springs.viscous);
+      viscous = viscous_of_contact<Oct>(none + springs.contact_damping, kn, ks, n, rate, none - normal_force,
+                                        friction_left<Oct>(ks, tan, normal_force, root(length2)), press,
+                                        press & ~(held.shear < one));
+      const Oct lost = (0.5 * springs.damping_step) * dot(viscous_before + viscous, rate);
+      for (int lane = 0; lane < lanes; ++lane)
+        if (here[lane] != 0)
+          spent.damping += lost[lane];
+      store_triples(springs.viscous, chosen(here, viscous, viscous_before));
     }
   }
-  if (left != 0) { // their forces of the step before are still asked for
-    const Triples before = load_triples(springs.force);
-    force = {leaves ? before.x : force.x, leaves ? before.y : force.y, leaves ? before.z : force.z};
-  }
+  // Of those that leave, the forces of the step before are still asked for.
+  const Triples force = chosen(leaves, before, spring_force<Oct>(kn, ks, n, stretch, held));
   store_triples(springs.force, force);
   if (springs.acting)
     store_triples(springs.acting, turns ? turned(rotation, force + viscous) : force);

@@ -34,6 +34,55 @@ HeldByContact<T> held_by_contact(const T& kn, const T& ks, const T& tan_friction
   return {open > none ? none : all, open > none ? none : held};
 }
 
+// How far a spring is stretched along its normal and across it, m.
+template <class T>
+struct SpringStretch {
+  T open;
+  Triple<T> shear;
+};
+
+template <class T>
+CDEM_INLINE SpringStretch<T> parts_of(const Triple<T>& stretch, const Triple<T>& normal) {
+  const T open = dot(stretch, normal);
+  return {open, stretch - open * normal};
+}
+
+// N, of a whole spring, kn and ks in N/m; a bond holds all of its load.
+template <class T>
+CDEM_INLINE Triple<T> spring_force(const T& kn, const T& ks, const Triple<T>& normal,
+                                   const SpringStretch<T>& stretch, const HeldByContact<T>& held) {
+  return (held.normal * (kn * stretch.open)) * normal + (held.shear * ks) * stretch.shear;
+}
+
+// J, that a contact loses as it slips, m; before: its force in the step before, N.
+template <class T>
+CDEM_INLINE T lost_by_slip(const T& ks, const Triple<T>& normal, const SpringStretch<T>& stretch,
+                           const HeldByContact<T>& held, const Triple<T>& before, const Triple<T>& slip) {
+  const Triple<T> shear_before = before - dot(before, normal) * normal;
+  return 0.5 * dot(shear_before + (held.shear * ks) * stretch.shear, slip);
+}
+
+// N, the shear that friction would hold beside that of a contact under a normal force (< 0 where it is pressed).
+template <class T>
+CDEM_INLINE T friction_left(const T& ks, const T& tan_friction, const T& normal_force,
+                            const T& shear_length) {
+  const T left = friction_limit<T>(-normal_force, tan_friction) - ks * shear_length;
+  return left > T{} ? left : T{};
+}
+
+// Stiffness damping of a contact beside its own force. It takes no tension, nothing while it is open, no shear while it
+// slides, and no more shear than friction leaves. damping: s; rate: m/s, of the stretch; pressing: N, >= 0.
+template <class T, class Mask>
+CDEM_INLINE Triple<T> viscous_of_contact(const T& damping, const T& kn, const T& ks, const Triple<T>& normal,
+                                         const Triple<T>& rate, const T& pressing, const T& friction_left,
+                                         const Mask& presses, const Mask& sticks) {
+  const T none{}, opening = dot(rate, normal), wanted = (damping * kn) * opening,
+                  along = presses ? (wanted < pressing ? wanted : pressing) : none,
+                  part = sticks ? damping * ks : none;
+  const Triple<T> shear = part * (rate - opening * normal);
+  return along * normal + held_by_friction<T>(root(dot(shear, shear)), friction_left) * shear;
+}
+
 template <class T>
 struct SpringResponseOf {
   Triple<T> traction{}; // Pa, pulls a towards b when along the normal

@@ -1,4 +1,6 @@
 // Each body moves, breaks and touches as it does without those that it never meets: not a bit differs.
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/assembly/tet_blocks.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
 
 #include <catch2/catch.hpp>
@@ -94,6 +96,32 @@ bool same_bits(const Nodes& a, const Nodes& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(cdem::Node)) == 0;
 }
 
+// Bonded tetrahedra that break on a floor; far away stands a grid of blocks whose bonds hold.
+System blocks_fallen(bool stranger) {
+  const auto moving = [](const std::string& name, const geom::Assembly& shape, double strength) {
+    cdem::Joint joint = soft_joint();
+    joint.softening = cdem::Softening::none;
+    joint.fracture_energy_1 = joint.fracture_energy_2 = 0;
+    joint.tensile_strength *= strength;
+    joint.cohesion *= strength;
+    cdem::BodySpec spec = body(name, shape, soft_rock(), joint);
+    spec.element = cdem::Element::finite_volume;
+    return spec;
+  };
+  std::vector<cdem::BodySpec> bodies = {
+      meshed("floor", box_at({2, 2, 0.2}, {2, 2, 1}, Mat3::Identity(), {0, 0, -0.101}), {}, soft_rock()),
+      moving("block", geom::tet_blocks(unstructured({0.4, 0.35, 0.3}, 0.2)), 1)};
+  bodies[0].element = cdem::Element::rigid;
+  if (stranger)
+    bodies.push_back(moving("stranger", geom::grid({0.4, 0.4, 0.4}, {2, 2, 1}, {100, 0, 0}), 100));
+  System s(build(bodies, {{"block", "floor", friction(30)}}));
+  s.hold(body_of("floor"), "xyz");
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (cdem::block_of(s.model, i) > 0 && s.model.node_position[i].x() < 10)
+      s.state.velocity[i] = node(Vec3(1, 0.2, -6));
+  return s;
+}
+
 // Two bars that are drawn out, the second one, which is weaker, for itself.
 System drawn_out(bool both) {
   std::vector<cdem::BodySpec> bodies = {
@@ -122,6 +150,23 @@ TEST_CASE("strangers: a body that breaks does so as it would alone", "[contact][
     CHECK(same_bits(moved(alone, 1), moved(beside, 1)));
   }
   CHECK(alone.log.broken_tension + alone.log.broken_shear > 100);
+}
+
+TEST_CASE("strangers: blocks that break do so as they would alone", "[contact][bonds][breaking]") {
+  System alone = blocks_fallen(false), beside = blocks_fallen(true);
+  const auto of_block = [](const System& s) {
+    Nodes nodes = s.state.displacement;
+    while (s.model.node_position[nodes.size() - 1].x() > 10)
+      nodes.pop_back();
+    return nodes;
+  };
+  for (int stage = 0; stage < 8; ++stage) {
+    run(alone, 60, 0.2 * time_step);
+    run(beside, 60, 0.2 * time_step);
+    INFO("stage " << stage << ", broken " << alone.log.breaks.size());
+    CHECK(same_bits(of_block(alone), of_block(beside)));
+  }
+  CHECK(alone.log.breaks.size() > 20);
 }
 
 TEST_CASE("strangers: faces of a body are freed when one of its own is due", "[cohesive][breaking]") {
