@@ -110,7 +110,8 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     read_nodes_of_rows(model, own);
   }
   keep_own_contacts(model, state, own);
-  own.any_depth_begins = !known || (anew && any_bonded_faces(model, state));
+  own.any_depth_begins = !known;
+  own.any_depth_of_broken = anew;
   // If a fragment has fallen apart, each contact stays with the part on which it acts.
   if (fragments_due) {
     for (Contact& c : state.contacts)

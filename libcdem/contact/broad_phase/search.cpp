@@ -125,6 +125,10 @@ void start_contact(const Model& model, ContactWork& work) {
     of_movers->assign(model.blocks.size(), 0.0);
   for (const auto& [bodies, law] : s.joint)
     work.restitution = work.restitution || model.joints[law].restitution < 1;
+  work.freed.assign(model.blocks.size(), 0);
+  for (const MeshChunk& chunk : model.mesh.chunks)
+    if (chunk.side_batches.size() > 0)
+      work.freed[chunk.block] = 1;
   work.force.assign(model.node_position.size(), Node{});
   work.stiffness.assign(model.node_position.size(), 0.0);
   work.rigid_sums.resize(model.rigid.size());

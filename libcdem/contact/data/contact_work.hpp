@@ -269,10 +269,11 @@ struct ContactWork {
   bool pairs_due = false;    // a search is due of rigid pairs that left their skins
   bool all_due = false;      // a search of all movers is due in which no rigid pair keeps its rows
   bool anew = true;          // a search goes on as if nothing of fragments had been known
-  // In this step contacts begin at any depth, since it is not known which fragments are new. Otherwise only contacts of
-  // movers that have changed do.
-  bool any_depth_begins = false;
-  double step = 0; // s, since then
+  // In this step contacts begin at any depth, since it is not known which fragments are new: all contacts, or those of
+  // blocks of which faces have been freed or have broken. Otherwise only contacts of movers that have changed do.
+  bool any_depth_begins = false, any_depth_of_broken = false;
+  std::vector<char> freed; // per block: some of its faces have been
+  double step = 0;         // s, since then
   // Tangent of the largest friction angle of any contact, for a stage that wants less than joints give.
   double most_friction = std::numeric_limits<double>::infinity();
   bool restitution = false; // some contact law has one below 1, and the stage wants it

@@ -259,8 +259,13 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
 // What is deep and was no contact before has come there by no motion, as at the mouth of a crack. Steps with some asleep do
 // not see it: it would begin where a search happens to be.
 double Evaluation::begins_at(int source, int target, double shallow) const {
-  const bool any_depth = work_.any_depth_begins || work_.changed[source] != Change::none ||
-                         work_.changed[target] != Change::none;
+  const auto has_broken = [&](int triangle) {
+    const int block = surface_.triangles[triangle].block;
+    return work_.freed[block] != 0 || work_.broken[block] != 0;
+  };
+  const bool any_depth = work_.any_depth_begins ||
+                         (work_.any_depth_of_broken && (has_broken(source) || has_broken(target))) ||
+                         work_.changed[source] != Change::none || work_.changed[target] != Change::none;
   return any_depth ? std::numeric_limits<double>::infinity() : shallow;
 }
 
