@@ -36,7 +36,7 @@ Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Obser
   impl_->observer = observer ? std::move(observer) : std::make_shared<Observer>();
   impl_->model = first_model(spec);
   impl_->built = hash(impl_->model);
-  impl_->whole() = initial_state(impl_->model);
+  impl_->kept = initial_state(impl_->model);
   impl_->last_good = impl_->whole();
   impl_->log.unmet = pairs_without_interface(spec, impl_->model);
 }
@@ -50,7 +50,14 @@ Simulation Simulation::copy() const {
   auto other = std::make_unique<Impl>();
   other->model = impl_->model;
   other->kept = impl_->whole();
-  other->last_good = impl_->whole();
+  other->last_good = impl_->kept;
+  if (impl_->end_of_run) {
+    make_whole(impl_->last_good);
+    other->last_good = impl_->last_good;
+    other->end_of_run = impl_->end_of_run;
+    other->end_of_run->point.breaks = 0; // it has no log
+    other->end_of_run->point.one_way = {};
+  }
   other->conditions = impl_->conditions;
   other->log.unmet = impl_->log.unmet;
   other->observer = impl_->observer;
@@ -66,6 +73,7 @@ void Simulation::reduce_strength(double factor, const StrengthKinds& kinds) {
         "reduce_strength: forces of an excavation are kept, up to {:.3g} of their size: they hold the rock "
         "like a support, and a factor of safety counts on them; model:relax_excavation{{}} lets them go",
         share));
+  impl_->end_of_run.reset();
   cdem::reduce_strength(impl_->model, factor, kinds);
 }
 
@@ -138,6 +146,7 @@ void Simulation::gravity(const Gravity& gravity) {
   if (gravity.turning && gravity.amplitude)
     throw geom::InputError(
         "amplitude: goes with a constant vector; let the function that turns it scale it too");
+  impl_->end_of_run.reset();
   impl_->conditions.gravity = gravity;
 }
 
@@ -160,6 +169,7 @@ bool flows_meet(const Model& model, const ResolvedConditions& r) {
 
 bool Simulation::flow(const Flow& flow) {
   check(flow);
+  impl_->end_of_run.reset();
   Conditions changed = impl_->conditions;
   changed.flows.push_back(flow);
   if (impl_->replaying) {
@@ -187,6 +197,7 @@ void Simulation::crack_pressure(const CrackPressure& pressure) {
 }
 
 void Simulation::clear_loads() {
+  impl_->end_of_run.reset();
   impl_->conditions.crack_pressures.clear();
   impl_->conditions.flows.clear();
   impl_->conditions.tractions.clear();
@@ -199,8 +210,8 @@ BeyondStrength Simulation::initial_stress(const InitialStress& field) {
   const double before = s.stored_energy();
   State changed = s.whole();
   add_initial_stress(s.model, changed, field);
-  s.whole() = std::move(changed);
-  s.whole().spent.cutting += before - s.stored_energy();
+  s.changing() = std::move(changed);
+  s.kept.spent.cutting += before - s.stored_energy();
   s.warn_of_dry_rock(field);
   if (s.stage == 0 && !s.replaying) {
     s.given_stress.push_back({field, {}});
@@ -223,9 +234,10 @@ WaterInJoints Simulation::water(const Water& water) {
   if (!s.replaying) { // else it stands in the state that is restored
     State changed = s.whole();
     sum = set_water(s.model, changed, water);
-    s.whole() = std::move(changed);
+    s.changing() = std::move(changed);
     s.warn_of_distant_table(water.table);
   }
+  s.end_of_run.reset();
   std::vector<StillWater>& still = s.conditions.still_waters;
   const bool everywhere = water.sets.empty() && selects_same(water.on, Selection::everything());
   const auto replaced = [&](const StillWater& other) {
@@ -240,8 +252,8 @@ WaterInJoints Simulation::water(const Water& water) {
 }
 
 void Simulation::reset_displacement() {
-  impl_->whole().displacement_zero = impl_->whole().displacement;
-  impl_->last_good = impl_->whole();
+  impl_->kept.displacement_zero = impl_->whole().displacement;
+  impl_->last_good.displacement_zero = impl_->kept.displacement_zero;
 }
 
 void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocity,
@@ -262,9 +274,10 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
         "on", on.text, "a place that may move as it is told",
         "model:fix holds every node there in these directions; release them first, or give the "
         "fix a velocity");
-  const double given = give_motion(s.model, s.whole(), nodes, motion, on.text);
-  s.whole().spent.external += given;
-  s.whole().spent.external_peak = std::max(s.whole().spent.external_peak, std::abs(s.whole().spent.external));
+  State& state = s.changing();
+  const double given = give_motion(s.model, state, nodes, motion, on.text);
+  state.spent.external += given;
+  state.spent.external_peak = std::max(state.spent.external_peak, std::abs(state.spent.external));
 }
 
 std::int64_t Simulation::make_rigid(const Selection& on) {
@@ -289,6 +302,7 @@ const std::vector<Departure>& Simulation::departures(std::size_t watch) const {
 
 std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
   Impl& s = *impl_;
+  State& state = s.changing();
   std::vector<char> selected(s.model.points.size());
   for (int p = 0; p < static_cast<int>(selected.size()); ++p)
     selected[p] = selects_point(s.model, on, p);
@@ -303,19 +317,19 @@ std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
   const double before = s.stored_energy();
   for (int p = 0; p < static_cast<int>(s.model.points.size()); ++p)
     if (selected[p]) {
-      s.whole().bond_mode[p] = static_cast<std::uint8_t>(BondMode::contact);
-      if (!s.whole().bond_damage.empty()) {
-        s.whole().bond_damage[p] = 0;
-        s.whole().bond_offset[p] += s.whole().bond_slip[p];
-        s.whole().bond_slip[p].setZero();
+      state.bond_mode[p] = static_cast<std::uint8_t>(BondMode::contact);
+      if (!state.bond_damage.empty()) {
+        state.bond_damage[p] = 0;
+        state.bond_offset[p] += state.bond_slip[p];
+        state.bond_slip[p].setZero();
       }
-      cdem::settle(s.model, s.whole(), p);
+      cdem::settle(s.model, state, p);
       ++count;
     }
-  count += notch(s.model, s.whole(), [&](const geom::Vec3& place, int block) {
+  count += notch(s.model, state, [&](const geom::Vec3& place, int block) {
     return selects_place(s.model, on, place, block);
   });
-  const std::vector<Node> position = present_places(s.model, s.whole());
+  const std::vector<Node> position = present_places(s.model, state);
   each_face_spring(s.model.mesh, [&](const MeshChunk& chunk, FaceSpringPlace at) {
     if (s.model.bodies[s.model.blocks[chunk.block].body].bonding.is_cohesive())
       return;
@@ -326,12 +340,12 @@ std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
     const int point = at.point;
     if (whole_faces ? !(holds(0) && holds(1) && holds(2)) : !holds(point))
       return;
-    s.whole().faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
-    FaceSlip slip = slip_of(s.whole(), at.batch, at.lane);
+    state.faces[at.batch].mode[point][at.lane] = static_cast<std::uint8_t>(BondMode::contact);
+    FaceSlip slip = slip_of(state, at.batch, at.lane);
     cdem::settle(s.model.mesh.faces[at.batch], face_nodes(s.model.mesh, chunk, at.batch, at.lane), point,
-                 at.lane, position.data(), s.whole().displacement.data(),
+                 at.lane, position.data(), state.displacement.data(),
                  face_law(s.model, chunk, at.batch, at.lane), slip);
-    slips_of(s.whole(), at.batch).set(at.lane, slip);
+    slips_of(state, at.batch).set(at.lane, slip);
     ++count;
   });
   if (count == 0)
@@ -340,8 +354,8 @@ std::int64_t Simulation::break_bonds(const Selection& on, bool whole_faces) {
                                ? "a place that holds whole interfaces"
                                : "a place that holds bonds, of a cohesive body whole faces of its mesh",
                            "nothing of the model lies there");
-  s.whole().spent.cutting += before - s.stored_energy();
-  s.last_good = s.whole();
+  state.spent.cutting += before - s.stored_energy();
+  s.last_good = state;
   return count;
 }
 
@@ -349,7 +363,7 @@ namespace {
 
 // A stage that goes on from a checkpoint finds in its log what it has come to.
 void sample_every(const StageContext& context, std::int64_t steps) {
-  if (steps > 0 && !context.from)
+  if (steps > 0 && (!context.from || context.from->step == 0))
     context.log.every = steps;
 }
 
@@ -369,10 +383,14 @@ RelaxResult Simulation::relax(const RelaxOptions& options) {
 RunResult Simulation::run(const RunOptions& options) {
   check(options);
   const double begin = time();
-  RunResult result = impl_->run_stage([&](const StageContext& context) {
-    sample_every(context, options.history_every);
-    return cdem::run(context, options);
-  });
+  const std::array<double, 4> step_choice{options.safety, options.time_step, options.mass_scaling.step,
+                                          options.mass_scaling.factor};
+  RunResult result = impl_->run_stage(
+      [&](const StageContext& context) {
+        sample_every(context, options.history_every);
+        return cdem::run(context, options);
+      },
+      &step_choice);
   impl_->last_residual = impl_->log.history.back().residual;
   impl_->look_for_dry_flows(begin, time());
   return result;
@@ -403,7 +421,7 @@ GrowResult Simulation::grow(const GrowOptions& options) {
       s.last_residual = result.residual;
       return result;
     };
-    return cdem::grow({s.model, s.whole(), s.log, *s.observer, context.number, relax,
+    return cdem::grow({s.model, s.changing(), s.log, *s.observer, context.number, relax,
                        [&](Rebuilt&& r) { s.adopt(std::move(r)); }},
                       options);
   });

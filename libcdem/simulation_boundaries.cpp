@@ -43,7 +43,7 @@ void Simulation::Impl::add_boundary(const Selection& on, const std::function<voi
     conditions = std::move(changed);
     return;
   }
-  State& state = whole();
+  State& state = changing();
   Workspace work(model, state, conditions);
   update_external(work.resolved, state.time, &state.velocity);
   const std::vector<Node> net = net_forces(model, state, work);
@@ -79,9 +79,10 @@ void Simulation::bolt(const Bolt& bolt) {
   if (!s.replaying) {
     State with = s.whole();
     set_bolt(s.model, with, bolt);
-    s.whole() = std::move(with);
-    s.last_good = s.whole();
+    s.changing() = std::move(with);
+    s.last_good = s.kept;
   }
+  s.end_of_run.reset();
   s.conditions.bolts.push_back(bolt);
 }
 

@@ -131,7 +131,7 @@ double Simulation::excavation_kept() const {
 
 std::size_t Simulation::relax_excavation(const Excavation& excavation) {
   check(excavation);
-  State& state = impl_->whole();
+  State& state = impl_->changing();
   const double kept = excavation_kept();
   const std::size_t count = relax_forces(excavation, state);
   if (kept > 0 && count == 0)

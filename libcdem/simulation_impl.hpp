@@ -14,6 +14,7 @@
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string_view>
 
@@ -36,6 +37,13 @@ struct Simulation::Impl {
   CheckpointWriter* checkpoints = nullptr;
   std::optional<RestartPoint> restart_point; // of the stage that runs
   std::optional<RestartPoint> from;          // of a restored stage, until it is taken up
+  // Where the last run ended, with the state in last_good: a run that follows goes on from there, with the steps that the
+  // last one chose, if it is to choose them in the same way. Null: something has been changed since, or solved otherwise.
+  struct End {
+    RestartPoint point;
+    std::array<double, 4> step_choice{}; // of RunOptions: safety, time_step, mass_scaling
+  };
+  std::optional<End> end_of_run;
   std::string at_start; // saved before a stage that can be begun again only; empty: none runs
 
   std::set<std::string> told; // warnings that the user has
@@ -72,8 +80,13 @@ struct Simulation::Impl {
   std::optional<geom::Vec3> lowest_place(const Selection& outer_faces) const; // m; none on none
   void warn_of_falling_forces();
 
-  // All ranks call it together.
-  State& whole() {
+  // All ranks call these together.
+  const State& whole() {
+    make_whole(kept);
+    return kept;
+  }
+  State& changing() {
+    end_of_run.reset();
     make_whole(kept);
     return kept;
   }
@@ -86,25 +99,35 @@ struct Simulation::Impl {
     return context;
   }
 
-  // Runs one stage, from where it was left if it was.
+  RestartPoint take_up(End);
+
+  // Runs one stage, from where it was left if it was; a run from where the one before ended, if that may be.
   template <class Solve>
-  auto run_stage(const Solve& solve) {
+  auto run_stage(const Solve& solve, const std::array<double, 4>* step_choice = nullptr) {
     std::optional<RestartPoint> entry;
     entry.swap(from);
+    std::optional<End> before;
+    before.swap(end_of_run);
     const struct Leave {
       Impl& s;
       ~Leave() { s.restart_point.reset(); }
     } leave{*this};
     StageContext context = next_stage();
     context.restart_point = &restart_point;
-    context.from = entry ? &*entry : nullptr;
-    if (entry) {
+    if (entry)
       last_good = kept;
+    else if (before && step_choice && before->step_choice == *step_choice)
+      entry = take_up(std::move(*before));
+    if (entry) {
       restart_point = entry;
+      context.from = &*entry;
     } else {
       keep_start_of_loop(context);
     }
-    return solve(context);
+    auto result = solve(context);
+    if (step_choice)
+      end_of_run = End{std::move(*restart_point), *step_choice};
+    return result;
   }
 
   // Runs one that is begun again when it was left, as it changes the model from step to step.
@@ -127,6 +150,7 @@ struct Simulation::Impl {
   // bodies must fit together.
   template <class Add>
   void add_condition(const Add& add) {
+    end_of_run.reset();
     if (!replaying) {
       Conditions tried;
       if (!model.rigid.empty())
@@ -180,14 +204,14 @@ struct Simulation::Impl {
     if (!replaying)
       resolve(changed, moved, conditions); // a rigid body cannot be held in part
     model = std::move(changed);
-    kept = std::move(moved);
+    changing() = std::move(moved);
     last_good = kept;
     return count;
   }
 
   // A change of topology between stages: the ledger counts what it does to the stored and the kinetic energy.
   void adopt(Rebuilt&& rebuilt) {
-    State& state = whole();
+    State& state = changing();
     const double before = cdem::energy(model, state).total(), water = water_work(model, state);
     model = std::move(rebuilt.model);
     state = std::move(rebuilt.state);

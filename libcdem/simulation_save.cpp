@@ -2,6 +2,7 @@
 #include "libcdem/checkpoint/model_archive.hpp"
 #include "libcdem/checkpoint/require_fits.hpp"
 #include "libcdem/checkpoint/require_whole.hpp"
+#include "libcdem/results/earlier_log.hpp"
 #include "libcdem/simulation_impl.hpp"
 
 #include <algorithm>
@@ -36,8 +37,12 @@ void take_names(const Model& built, Model& then) {
 
 } // namespace
 
-CDEM_ARCHIVE(RestartPoint, step, breaks, wall_time, tension_before, shear_before, loop_state, previous_force,
-             spring_force, stretch, viscous, one_way, contact_step, strain_step, near, procedure_state)
+CDEM_ARCHIVE(FlowCorner, node, inward, stream)
+CDEM_ARCHIVE(FlowPatterns::OfFlow, forces, corners)
+CDEM_ARCHIVE(FlowPatterns, flows, water_mass)
+CDEM_ARCHIVE(RestartPoint, step, begun, breaks, wall_time, tension_before, shear_before, loop_state,
+             previous_force, spring_force, stretch, viscous, one_way, contact_step, strain_step, near, slid,
+             flows, procedure_state)
 
 std::string Simulation::Impl::saved() const {
   if (!at_start.empty())
@@ -52,13 +57,20 @@ std::string Simulation::Impl::saved() const {
   if (!as_built)
     write(a, model);
   write(a, then);
+  const bool ends = end_of_run && !restart_point;
+  archive_const(a, ends);
+  if (ends) {
+    write(a, last_good);
+    archive_const(a, end_of_run->point);
+    archive_const(a, end_of_run->step_choice);
+  }
   archive_const(a, last_residual);
   archive_const(a, restart_point ? stage - 1 : stage);
   if (restart_point)
     write(a, log, then.step, restart_point->breaks, restart_point->one_way);
   else
     write(a, log, then.step, log.breaks.size(), log.one_way);
-  const bool midway = restart_point && (restart_point->step > 0 || !restart_point->procedure_state.empty());
+  const bool midway = restart_point && (restart_point->begun || !restart_point->procedure_state.empty());
   archive_const(a, midway);
   if (midway)
     archive_const(a, *restart_point);
@@ -88,21 +100,41 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   }
   read(a, state_then);
   require_fits(as_built ? model : model_then, state_then);
+  bool ends = false;
+  archive(a, ends);
+  State state_at_end;
+  std::optional<End> end_then;
+  if (ends) {
+    read(a, state_at_end);
+    require_fits(as_built ? model : model_then, state_at_end);
+    end_then.emplace();
+    archive(a, end_then->point);
+    archive(a, end_then->step_choice);
+  }
   archive(a, last_residual);
   if (!as_built) {
     take_names(model, model_then);
     model = std::move(model_then);
   }
   kept = std::move(state_then);
-  last_good = kept;
+  last_good = ends ? std::move(state_at_end) : kept;
+  end_of_run = std::move(end_then);
   from.reset();
-  if (state_only)
+  if (state_only) {
+    if (end_of_run) {
+      end_of_run->point.breaks = log.breaks.size();
+      end_of_run->point.one_way = log.one_way;
+      require_whole(model, log, end_of_run->point);
+    }
     return;
+  }
   archive(a, stage);
   if (stage < 0)
     Reader::refuse();
   read(a, log);
   require_whole(model, log);
+  if (end_of_run)
+    require_whole(model, log, end_of_run->point);
   bool midway = false;
   archive(a, midway);
   if (midway) {
@@ -111,17 +143,36 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   }
 }
 
-// Only a stage that runs keeps a copy in shares.
+// What the run before has reported and the next step finds again is taken off the log.
+RestartPoint Simulation::Impl::take_up(End before) {
+  RestartPoint point = std::move(before.point);
+  if (const std::shared_ptr<const StateShares> shares = last_good.parted) {
+    make_whole(last_good);
+    for (std::vector<geom::Vec3>* of_points : {&point.spring_force, &point.stretch, &point.viscous})
+      shares->gather_points(*of_points);
+  }
+  kept = last_good;
+  point.broken_tension_before = log.broken_tension;
+  point.broken_shear_before = log.broken_shear;
+  go_back(log, kept.step, point.breaks, point.one_way);
+  if (checkpoints)
+    checkpoints->marked();
+  return point;
+}
+
+// A stage that runs keeps a copy in shares, and the end of a run.
 void Simulation::gather_to_save() {
   Impl& s = *impl_;
   const std::shared_ptr<const StateShares> shares = s.last_good.parted;
-  if (!shares || !s.restart_point)
+  RestartPoint* const point = s.restart_point ? &*s.restart_point
+                              : s.end_of_run  ? &s.end_of_run->point
+                                              : nullptr;
+  if (!shares || !point)
     return;
   shares->gather_on_lead(s.last_good);
-  shares->gather_nodes_on_lead(s.restart_point->previous_force);
-  shares->gather_points_on_lead(s.restart_point->spring_force);
-  shares->gather_points_on_lead(s.restart_point->stretch);
-  shares->gather_points_on_lead(s.restart_point->viscous);
+  shares->gather_nodes_on_lead(point->previous_force);
+  for (std::vector<geom::Vec3>* of_points : {&point->spring_force, &point->stretch, &point->viscous})
+    shares->gather_points_on_lead(*of_points);
 }
 
 std::string Simulation::save() const {

@@ -36,6 +36,12 @@ ToldOfBonds bonds_of(const State& state, const Interface& interface) {
 
 } // namespace
 
+bool all_bonds_are_told(const Model& model, const State& state) {
+  return std::all_of(model.interfaces.begin(), model.interfaces.end(), [&](const Interface& interface) {
+    return interface.frame < 0 || told_of(state, interface.frame) == bonds_of(state, interface);
+  });
+}
+
 void tell_of_bonds(const Model& model, State& state, const std::vector<char>& blocks) {
   for (const Interface& interface : model.interfaces)
     if (interface.frame >= 0 && blocks[interface.block_a] != 0)

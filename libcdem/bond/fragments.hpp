@@ -14,6 +14,8 @@ bool is_bonded(const State&, std::int64_t batch, int lane);
 inline ToldOfBonds told_of(const State& state, int frame) {
   return static_cast<ToldOfBonds>(state.told_bonds[static_cast<std::size_t>(frame)]);
 }
+// State::told_bonds says of all interfaces that turn what is so.
+bool all_bonds_are_told(const Model&, const State&);
 // Writes FaceStateBatch::told of the faces, and State::told_bonds of the interfaces, of these blocks (per block).
 void tell_of_bonds(const Model&, State&, const std::vector<char>& blocks);
 

@@ -1,6 +1,7 @@
 #include "libcdem/checkpoint/model_archive.hpp"
 
 #include "libcdem/model/known_of_model.hpp"
+#include "libcdem/results/earlier_log.hpp"
 
 #include <algorithm>
 
@@ -144,18 +145,7 @@ void read(Reader& a, State& state) {
 void write(Writer& a, const RunLog& log, std::int64_t last_step, std::size_t breaks,
            const OneWayEnergies& one_way) {
   RunLog then = log;
-  then.one_way = one_way;
-  then.breaks.resize(std::min(breaks, then.breaks.size()));
-  then.broken_tension = then.broken_shear = 0;
-  for (const BreakRow& row : then.breaks)
-    ++(row.mode == BondMode::broken_tension ? then.broken_tension : then.broken_shear);
-  const auto later = [&](const HistoryRow& row) { return row.step > last_step; };
-  then.history.erase(std::remove_if(then.history.begin(), then.history.end(), later), then.history.end());
-  const auto escaped_later = [&](const EscapeRow& row) { return row.step > last_step; };
-  then.escapes.erase(std::remove_if(then.escapes.begin(), then.escapes.end(), escaped_later),
-                     then.escapes.end());
-  for (Watch& watch : then.watches)
-    watch = watch_at(watch, last_step);
+  go_back(then, last_step, breaks, one_way);
   archive(a, then);
 }
 

@@ -65,7 +65,7 @@ void require_held(const Model& model, const ResolvedConditions& r) {
     }
 }
 
-// Looks every watch_every steps, where the state has just been caught up.
+// Looks every watch_every steps of the model, where the state has just been caught up.
 class Stability {
 public:
   Stability(const Model& model, const State& state, const std::vector<double>& mass,
@@ -208,6 +208,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     return numbers;
   };
   RelaxResult result;
+  double kept_kinetic = report.sums.kinetic; // J, of the state that was kept last
   const auto step = [&] {
     const bool renewed = stage.renew_interfaces(),
                freed = (options.breaking && stage.split_nodes(1)) || renewed;
@@ -218,8 +219,10 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       slow.forget();
       stability.renumbered();
     }
-    if (freed || stage.can_be_left())
+    if (freed || stage.can_be_left()) {
       stage.keep_restart_point(loop_state(), previous_force);
+      kept_kinetic = report.sums.kinetic;
+    }
     if (freed || stage.step <= moving_steps)
       lead_supports(state, stage.work.resolved, stage.step);
     stage.update_contacts();
@@ -245,7 +248,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
     report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
     report.residual = relative_residual(report.sums);
     stage.watch(report);
-    if (judges && stage.step % watch_every == 0) {
+    if (judges && stage.is_due(watch_every)) {
       stage.see_whole();
       stability.look(stage.step, report.residual);
       failing = stability.watch().failing();
@@ -256,7 +259,7 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
     }
     forces_known = true;
-    if (stage.step > moving_steps && stage.step % slow_mode_every == 0) {
+    if (stage.step > moving_steps && stage.is_due(slow_mode_every)) {
       stage.see_surfaces(previous_force);
       slow.look(state, previous_force, masses.of_nodes());
     }
@@ -282,9 +285,8 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
       if (!options.stop_on_failure || !stability.watch().suspicious())
         throw;
       // It ran too far between two looks: what is kept is the last one.
-      state = context.last_good;
-      stage.see_whole();
-      stage.work.strain_step = 0;
+      stage.go_back();
+      report.sums.kinetic = kept_kinetic;
       failing = true;
     }
   }

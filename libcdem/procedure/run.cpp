@@ -80,9 +80,15 @@ public:
         first_(static_cast<std::int64_t>(c.at(4))) {
     set_steps();
   }
-  std::vector<double> loop_state() const {
+  // step: that other stage calls its first step 0.
+  std::vector<double> loop_state(std::int64_t step = 0) const {
     return {start_, end_, time_step_, given_ == without_end ? -1 : static_cast<double>(given_),
-            static_cast<double>(first_)};
+            static_cast<double>(first_ - step)};
+  }
+  void set_goal(double now, const RunOptions& options) {
+    end_ = now + options.duration;
+    given_ = options.steps;
+    set_steps();
   }
   double time_step() const { return time_step_; }
   std::int64_t steps() const { return steps_; }
@@ -147,7 +153,9 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   Clock clock(state.time, stepping.time_step, options);
   if (from) {
     clock = Clock(from->loop_state);
-    scaled.take(from->loop_state);
+    if (from->step == 0)
+      clock.set_goal(state.time, options);
+    scaled.take(from->loop_state, from->step > 0);
     stepping.time_step = clock.time_step();
   }
   const auto set_goals = [&] {
@@ -177,8 +185,8 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   };
   lead_supports();
   stage.sample_start();
-  const auto loop_state = [&] {
-    std::vector<double> numbers = clock.loop_state();
+  const auto loop_state = [&](std::int64_t step) {
+    std::vector<double> numbers = clock.loop_state(step);
     scaled.add_to(numbers);
     return numbers;
   };
@@ -229,11 +237,11 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
         shorten(options.safety * stable_of_mesh);
     }
     // Before the restart point, which is where a stage that goes on begins.
-    if (chooses_step && (freed || joined || stage.step % watch_every == 0) &&
+    if (chooses_step && (freed || joined || stage.begins() || stage.is_due(watch_every)) &&
         any_dry_joint(context.model, state))
       shorten(options.safety * stable_step_of_dry_joints(stable_now));
     if (freed || joined || stage.can_be_left())
-      stage.keep_restart_point(loop_state());
+      stage.keep_restart_point(loop_state(0));
     stage.work.bond.contact_damping =
         contact_damping(stepping.time_step, scaled.on() ? stepping.time_step / options.safety : stable_now);
     double longest = stage.update_contacts(options.safety);
@@ -269,7 +277,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     state.time = clock.time_at(stage.step);
     state.velocity_lag = 0.5 * stepping.time_step;
     stage.watch(report);
-    if (scaled.on() && stage.step % watch_every == 0) {
+    if (scaled.on() && stage.is_due(watch_every)) {
       stage.see_whole();
       scaled.sample();
     }
@@ -285,11 +293,13 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     }
     look(stage, options.looks, before, state.time);
   }
+  if (!context.procedure_state)
+    stage.keep_end(loop_state(stage.step));
   if (!scaled.on())
     stage.drop_water();
   RunResult result{stage.finish(report), state.time, stepping.time_step, {}};
   if (scaled.on()) {
-    if (stage.step % watch_every != 0)
+    if (!stage.is_due(watch_every))
       scaled.sample();
     result.scaled = scaled.report();
   }

@@ -53,14 +53,17 @@ ScaledMasses ScaledStage::report() const {
 }
 
 void ScaledStage::add_to(std::vector<double>& loop_state) const {
-  loop_state.insert(loop_state.end(), {kinetic_, stored_});
+  loop_state.insert(loop_state.end(), {kinetic_, stored_, step_});
 }
 
-void ScaledStage::take(const std::vector<double>& loop_state) {
-  if (!on() || loop_state.size() < 2)
+void ScaledStage::take(const std::vector<double>& loop_state, bool samples_too) {
+  if (!on() || loop_state.size() < 3)
     return;
-  kinetic_ = loop_state[loop_state.size() - 2];
-  stored_ = loop_state.back();
+  step_ = loop_state.back();
+  if (!samples_too)
+    return;
+  kinetic_ = loop_state[loop_state.size() - 3];
+  stored_ = loop_state[loop_state.size() - 2];
 }
 
 void require_scalable(const Model& model, const RunOptions& options) {

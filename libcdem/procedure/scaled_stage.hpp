@@ -24,7 +24,7 @@ public:
   ScaledMasses report() const;
   // A loop carries this from step to step.
   void add_to(std::vector<double>& loop_state) const;
-  void take(const std::vector<double>& loop_state);
+  void take(const std::vector<double>& loop_state, bool samples_too);
 
 private:
   void set(std::vector<double> masses);

@@ -8,12 +8,14 @@
 #pragma once
 
 #include "libcdem/state/state.hpp"
+#include "libcdem/step/stage.hpp"
 
 #include <optional>
 
 namespace cdem {
 
-inline constexpr std::int64_t slow_mode_every = 20; // steps
+inline constexpr std::int64_t slow_mode_every = 20; // steps of the model
+static_assert(watch_every % slow_mode_every == 0, "a stage is left where it has just looked");
 
 class SlowMode {
 public:

@@ -1,5 +1,7 @@
 #include "libcdem/results/log.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 namespace {
 
@@ -20,6 +22,13 @@ void RunLog::add(HistoryRow row) {
       kept.push_back(std::move(history[i]));
   }
   history = std::move(kept);
+}
+
+void forget_breaks(RunLog& log, std::size_t left) {
+  log.breaks.resize(std::min(left, log.breaks.size()));
+  log.broken_tension = log.broken_shear = 0;
+  for (const BreakRow& row : log.breaks)
+    ++(row.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
 }
 
 } // namespace cdem

@@ -79,4 +79,7 @@ struct RunLog {
   void add(HistoryRow row);
 };
 
+// Leaves the first breaks only.
+void forget_breaks(RunLog&, std::size_t left);
+
 } // namespace cdem

@@ -1,5 +1,6 @@
 #include "libcdem/step/stage.hpp"
 
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/bond/release.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
@@ -82,30 +83,15 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   start_spring_forces(context_.model, context_.state, work.bond);
   share();
   warn_of_idle_ranks();
-  if (const RestartPoint* from = context_.from) {
-    context_.last_good = context_.state;
-    if (context_.restart_point)
-      *context_.restart_point = *from;
-    step = from->step;
-    if (step > 0)
-      ContactUpdate::go_on(work.contact);
-    work.strain_step = from->strain_step;
-    if (!from->near.empty())
-      take_near(from->near);
-    broken_tension_before_ = from->broken_tension_before;
-    broken_shear_before_ = from->broken_shear_before;
-    work.bond.spring_force = from->spring_force;
-    work.bond.stretch = from->stretch;
-    work.bond.viscous = from->viscous;
-    work.contact.last_step = from->contact_step;
-    start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-        std::chrono::duration<double>(from->wall_time));
-  } else {
+  if (context_.from)
+    go_on_from(*context_.from);
+  else
     keep_start_of_loop(context_);
-  }
   if (shared_) {
     keep_last_good();
     give_back();
+  } else {
+    note_last_good();
   }
 }
 
@@ -115,43 +101,6 @@ Stage::~Stage() {
   synchronise();
   if (shared_ && std::uncaught_exceptions() > exceptions_) // the last good state is written
     shared_->shares().gather_on_lead(context_.last_good);
-}
-
-void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
-  if (can_be_left())
-    share_anew();
-  keep_last_good();
-  give_back();
-  if (!context_.restart_point)
-    return;
-  RestartPoint& point = **context_.restart_point;
-  if (point.step == step)
-    return;
-  point.step = step;
-  point.breaks = context_.log.breaks.size();
-  point.one_way = context_.log.one_way;
-  point.wall_time = wall_time();
-  point.loop_state = std::move(loop_state);
-  if (shared_) {
-    const StateShares& shares = shared_->shares();
-    StateShares::copy(previous_force, point.previous_force, shares.nodes());
-    StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
-    StateShares::copy(work.bond.stretch, point.stretch, shares.points());
-    StateShares::copy(work.bond.viscous, point.viscous, shares.points());
-  } else {
-    point.previous_force = previous_force;
-    point.spring_force = work.bond.spring_force;
-    point.stretch = work.bond.stretch;
-    point.viscous = work.bond.viscous;
-  }
-  point.contact_step = work.contact.last_step;
-  point.strain_step = work.strain_step;
-  point.near = work.near.crack_known ? near_of_all() : std::vector<std::uint8_t>();
-  if (context_.procedure_state)
-    point.procedure_state = context_.procedure_state();
-  contacts_.start_anew(context_.model, work.contact, true);
-  if (context_.checkpoints)
-    context_.checkpoints->marked();
 }
 
 double Stage::update_contacts(double safety) {
@@ -241,7 +190,7 @@ void Stage::synchronise_contacts(RunLog& log) {
 
 std::int64_t Stage::synchronise_stress(RunLog& log) {
   std::int64_t broken = 0;
-  work.hand_over_due = step % hand_over_every == 0;
+  work.hand_over_due = is_due(hand_over_every);
   if (work.strain_step > 0) {
     if (shared_)
       shared_->parted(context_.state);
@@ -277,12 +226,10 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
 // Contact is told of the bonds of a block when a face is handed over, or an interface left to contact, of it or of those that
 // are held to it, and of all blocks here.
 void Stage::look_over() {
-  require_sound_state();
-  const std::vector<BreakRow>& breaks = context_.log.breaks;
-  const bool faces = !context_.state.face_slip.empty() || !context_.model.mesh.sides.empty(),
-             interfaces = !context_.model.frames.empty() && !breaks.empty() &&
-                          breaks.back().stage == context_.number && breaks.back().step + watch_every >= step;
-  if (faces || interfaces) {
+  if (!kept_end_)
+    require_sound_state();
+  const bool faces = !context_.state.face_slip.empty() || !context_.model.mesh.sides.empty();
+  if (faces || !all_bonds_are_told(context_.model, context_.state)) {
     work.contact.fragments_due = true;
     work.contact.anew = work.contact.anew || faces;
     std::fill(work.contact.told_due.begin(), work.contact.told_due.end(), 1);
@@ -338,12 +285,12 @@ void Stage::watch(const StepReport& report) {
   if (follows_fragments)
     require_followed(context_.model, work, here());
   release_parted_blocks();
-  if (step % watch_every == 0)
+  if (is_due(watch_every))
     look_over();
   const std::vector<ResolvedFlow>& flows = work.resolved.flows;
   const bool of_water =
       std::any_of(flows.begin(), flows.end(), [](const ResolvedFlow& f) { return f.water; });
-  if (!flows.empty() && step % (of_water ? water_every : flow_every) == 0) {
+  if (!flows.empty() && is_due(of_water ? water_every : flow_every)) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
     if (in_real_time && !scale_masses)
@@ -352,7 +299,7 @@ void Stage::watch(const StepReport& report) {
   }
   if (context_.log.due(context_.state.step))
     sample(report);
-  if (step % look_every == 0 && !context_.log.watches.empty()) {
+  if (is_due(look_every) && !context_.log.watches.empty()) {
     see_whole();
     look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   }
@@ -377,7 +324,7 @@ void Stage::record_step(const StepReport& report) {
 }
 
 void Stage::release_parted_blocks() {
-  if (context_.model.frames.empty() || step % release_every != 0)
+  if (context_.model.frames.empty() || !is_due(release_every))
     return;
   see_whole();
   Released released = release_interfaces(context_.model, context_.state, context_.threads);
@@ -432,7 +379,8 @@ StageResult Stage::finish(const StepReport& step_report) {
   sample(step_report);
   times_.end(StepLine::watch);
   report(step_report, true);
-  keep_last_good(); // last: whoever ends a stage before goes on from the restart point and the state that stood there
+  if (!kept_end_)
+    keep_last_good(); // last: whoever ends a stage before goes on from the restart point and the state that stood there
   return {step, step_report.residual, context_.log.broken_tension - broken_tension_before_,
           context_.log.broken_shear - broken_shear_before_, wall_time()};
 }
@@ -441,6 +389,9 @@ void Stage::sample_start() {
   RunLog& log = context_.log;
   if (!log.history.empty() && log.history.back().stage == context_.number)
     return; // a stage of several loops, or one that goes on
+  std::optional<SynchronisedView> view;
+  if (!begins_)
+    view.emplace(*this, SynchronisedView::Of::whole);
   see_whole();
   record_history(context_.model, context_.state, context_.conditions, log, context_.number, 0,
                  kinetic_energy(context_.model, context_.state));

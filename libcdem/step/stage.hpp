@@ -33,7 +33,8 @@
 
 namespace cdem {
 
-// Steps between looks at every node and element, and between copies of the state.
+// All looks follow State::step, the steps of the model over all its stages: where a run ends and the next one goes on
+// changes nothing. Steps between looks at every node and element, and between copies of the state:
 inline constexpr std::int64_t watch_every = 200;
 // Steps between looks at which broken faces have parted or slid away. Until then their own springs hold them: in a body
 // that shatters every look would else be followed by a search for contacts.
@@ -63,9 +64,16 @@ public:
   void sample_start();
 
   // True at the head of a step at which the loop calls keep_restart_point, with what it carries from step to step.
-  bool can_be_left() const { return step > 0 && step % watch_every == 0; }
+  bool can_be_left() const { return step > 0 && is_due(watch_every); }
+  bool begins() const { return begins_ && step == 0; }
+  // After so many steps of the model there is a look.
+  bool is_due(std::int64_t every) const { return context_.state.step % every == 0; }
   // Keeps the state and, where the stage may be left, the restart point that goes with it: both or neither.
   void keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force = {});
+  // The end of the stage as a point from which another one may go on, which calls its first step 0. Before finish.
+  void keep_end(std::vector<double> loop_state);
+  // To the state that was kept last, after an error.
+  void go_back();
 
   // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
   // stage can be left here (keep_restart_point). time_step: s, of the steps to come.
@@ -106,7 +114,7 @@ public:
   void carry_water();
   void drop_water(); // at the end of a stage
   void watch(const StepReport&);
-  StageResult finish(const StepReport&); // last history row and progress
+  StageResult finish(const StepReport&); // what results read, last history row and progress
   std::int64_t broken_in_step() const { return broken_in_step_; }
 
   // The state of all ranks, for who looks at the whole of it, or at what a search for contacts reads and an array by node beside it.
@@ -118,6 +126,8 @@ public:
 
 private:
   friend class SynchronisedView;
+  void go_on_from(const RestartPoint&);
+  void note(RestartPoint&, std::vector<double> loop_state, const std::vector<Node>& previous_force) const;
   void share(); // with other ranks, when there are any
   void start_watch();
   void warn_of_idle_ranks() const;
@@ -125,6 +135,7 @@ private:
   bool left_alone() const;    // by an error that the other ranks, which are elsewhere, do not have
   void require_sound_state(); // Throws SolutionError
   void keep_last_good();      // of this rank's share
+  void note_last_good();      // what goes with it
   void give_back();           // memory of what other ranks own
   void synchronise_contacts(RunLog&);
   std::int64_t synchronise_stress(RunLog&);      // returns how many springs broke, of which the log is told
@@ -162,6 +173,12 @@ private:
   double time_step_ = 0;  // s, of the step to come
   BegunCracks begun_;     // in this step
   std::vector<int> slid_; // interfaces to renew before the next step
+  bool begins_ = true;    // no step of this stage, or of one that it goes on from, has been made before
+  bool kept_end_ = false;
+  // Of the state that was kept last: s, Workspace::strain_step; and the log.
+  double good_strain_step_ = 0;
+  std::size_t good_breaks_ = 0;
+  OneWayEnergies good_one_way_;
   bool has_shared_nodes_;
   std::string kind_;
   double run_away_;
@@ -177,7 +194,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
                         const std::function<void(int)>& place_rigid) {
   const Model& model = context_.model;
   State& state = context_.state;
-  work.hand_over_due = step % hand_over_every == 0;
+  work.hand_over_due = is_due(hand_over_every);
   const int threads = context_.threads;
   breaking_ = breaking;
   if (shared_)

@@ -9,9 +9,24 @@
 #include "libcdem/step/stage.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace cdem {
+namespace {
+
+// Per node, which it is now; -1: of a block whose nodes have been freed or joined.
+std::vector<int> new_nodes_of_unchanged(const Model& before, const Model& now) {
+  std::vector<int> new_node(before.node_position.size(), -1);
+  for (std::size_t b = 0; b < before.blocks.size(); ++b) {
+    const Block &old = before.blocks[b], &block = now.blocks[b];
+    if (old.node_end - old.node_begin == block.node_end - block.node_begin)
+      std::iota(new_node.begin() + old.node_begin, new_node.begin() + old.node_end, block.node_begin);
+  }
+  return new_node;
+}
+
+} // namespace
 
 bool Stage::split_nodes(double time_step) {
   time_step_ = time_step;
@@ -22,7 +37,7 @@ bool Stage::split_nodes(double time_step) {
   const double ahead = 2 * time_step;
   if (!work.near.crack_known)
     watch_.look(model, state, work.mesh_chunks(model), context_.threads, work.near);
-  const bool rates_unknown = step <= 1; // how stresses rise is known from velocities alone
+  const bool rates_unknown = begins_ && step <= 1; // how stresses rise is known from velocities alone
   const std::vector<char> bodies =
       watch_.due(model, state, work.near, shared_.get(), context_.threads, ahead, rates_unknown);
   bool due = std::find(bodies.begin(), bodies.end(), 1) != bodies.end();
@@ -40,7 +55,7 @@ bool Stage::split_nodes(double time_step) {
 }
 
 bool Stage::join_nodes() {
-  if (watch_.empty() || !context_.changing || context_.renumbered || context_.state.step % watch_every != 0)
+  if (watch_.empty() || !context_.changing || context_.renumbered || !is_due(watch_every))
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
@@ -67,6 +82,8 @@ void Stage::change_nodes(Freed freed) {
   const bool near_known = work.near.crack_known;
   const std::vector<std::uint8_t> near = near_of_all();
   const std::vector<int> slots = model.mesh.tet_slot;
+  const FlowPatterns flows = flow_patterns(work.resolved);
+  const std::vector<int> new_node = new_nodes_of_unchanged(model, freed.model);
   *context_.changing = std::move(freed.model);
   state = std::move(freed.state);
   if (scale_masses)
@@ -75,6 +92,7 @@ void Stage::change_nodes(Freed freed) {
     context_.renumbered(freed.old_node);
   Workspace before = std::move(work);
   work = Workspace(model, state, context_.conditions);
+  keep_flow_patterns(flows, new_node, work.resolved);
   work.damped = before.damped;
   work.strain_step = before.strain_step;
   work.bond = std::move(before.bond);

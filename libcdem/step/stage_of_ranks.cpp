@@ -1,6 +1,7 @@
 // A stage among several ranks: which chunks are whose, who keeps what of the State, when all of it is gathered.
 #include "libcdem/parallel/residency.hpp"
 #include "libcdem/ranks/parked_model.hpp"
+#include "libcdem/results/earlier_log.hpp"
 #include "libcdem/step/stage.hpp"
 
 #include <algorithm>
@@ -122,11 +123,27 @@ void Stage::give_back() {
   trim_heap(); // what building and looking at the whole has left
 }
 
+void Stage::note_last_good() {
+  good_strain_step_ = work.strain_step;
+  good_breaks_ = context_.log.breaks.size();
+  good_one_way_ = context_.log.one_way;
+}
+
 void Stage::keep_last_good() {
+  note_last_good();
   if (shared_)
     shared_->keep(context_.state, context_.last_good);
   else
     context_.last_good = context_.state;
+}
+
+void Stage::go_back() {
+  context_.state = context_.last_good;
+  see_whole();
+  work.strain_step = good_strain_step_;
+  cdem::go_back(context_.log, context_.state.step, good_breaks_, good_one_way_);
+  work.near.forget();
+  contacts_.start_anew(context_.model, work.contact, false);
 }
 
 void Stage::see_whole() {

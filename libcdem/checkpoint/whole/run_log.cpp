@@ -73,6 +73,15 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
     refuse("restart.contact_step", std::to_string(point.contact_step) + " is out of range");
   if (!(point.strain_step >= 0 && point.strain_step < std::numeric_limits<double>::infinity()))
     refuse("restart.strain_step", std::to_string(point.strain_step) + " is out of range");
+  all_below("restart.slid", point.slid, model.interfaces.size());
+  for (const FlowPatterns::OfFlow& flow : point.flows.flows) {
+    for (const auto& [node, force] : flow.forces)
+      all_below("restart.flows", std::array{node}, model.node_position.size());
+    for (const FlowCorner& corner : flow.corners)
+      all_below("restart.flows", std::array{corner.node}, model.node_position.size());
+    require(flow.corners.size() <= flow.forces.size(), "restart.flows", count(flow.corners.size()));
+  }
+  length("restart.water_mass", point.flows.water_mass.size(), model.node_position.size());
   length("restart.near", point.near.size(), model.mesh.batches.size());
   length("restart.previous_force", point.previous_force.size(), model.node_position.size());
   length("restart.spring_force", point.spring_force.size(), model.points.size());

@@ -1,0 +1,65 @@
+#include "libcdem/load/flow_patterns.hpp"
+
+#include <utility>
+
+namespace cdem {
+
+FlowPatterns flow_patterns(const ResolvedConditions& r) {
+  FlowPatterns patterns;
+  for (const ResolvedFlow& flow : r.flows)
+    patterns.flows.push_back({r.varying[flow.load].forces, flow.corners});
+  patterns.water_mass = r.water_mass;
+  return patterns;
+}
+
+void take_flow_patterns(FlowPatterns patterns, ResolvedConditions& r) {
+  if (patterns.flows.size() != r.flows.size())
+    return;
+  for (std::size_t i = 0; i < r.flows.size(); ++i) {
+    std::vector<std::pair<int, geom::Vec3>>& forces = r.varying[r.flows[i].load].forces;
+    for (const auto& [node, force] : forces)
+      r.external[node] = r.constant[node];
+    forces = std::move(patterns.flows[i].forces);
+    r.flows[i].corners = std::move(patterns.flows[i].corners);
+  }
+  r.water_mass = std::move(patterns.water_mass);
+}
+
+void keep_flow_patterns(const FlowPatterns& before, const std::vector<int>& new_node, ResolvedConditions& r) {
+  const FlowPatterns found = flow_patterns(r);
+  if (found.flows.empty() || found.flows.size() != before.flows.size())
+    return;
+  std::vector<char> goes_on(r.external.size(), 0);
+  for (const int node : new_node)
+    if (node >= 0)
+      goes_on[node] = 1;
+  FlowPatterns all;
+  all.water_mass = found.water_mass;
+  for (std::size_t node = 0; node < new_node.size() && !all.water_mass.empty(); ++node)
+    if (new_node[node] >= 0)
+      all.water_mass[new_node[node]] = before.water_mass.empty() ? 0 : before.water_mass[node];
+  for (std::size_t i = 0; i < found.flows.size(); ++i) {
+    const FlowPatterns::OfFlow &old = before.flows[i], &now = found.flows[i];
+    FlowPatterns::OfFlow flow;
+    const auto add = [&](const FlowCorner& corner, int node) {
+      flow.corners.push_back({node, corner.inward, corner.stream});
+      flow.forces.emplace_back(node, geom::Vec3::Zero());
+    };
+    for (const FlowCorner& corner : old.corners)
+      if (const int node = new_node[corner.node]; node >= 0)
+        add(corner, node);
+    for (const FlowCorner& corner : now.corners)
+      if (goes_on[corner.node] == 0)
+        add(corner, corner.node);
+    for (std::size_t k = old.corners.size(); k < old.forces.size(); ++k)
+      if (const int node = new_node[old.forces[k].first]; node >= 0)
+        flow.forces.emplace_back(node, old.forces[k].second);
+    for (std::size_t k = now.corners.size(); k < now.forces.size(); ++k)
+      if (goes_on[now.forces[k].first] == 0)
+        flow.forces.push_back(now.forces[k]);
+    all.flows.push_back(std::move(flow));
+  }
+  take_flow_patterns(std::move(all), r);
+}
+
+} // namespace cdem

@@ -1,0 +1,91 @@
+// Where a stage can be left, and how it goes on from there (step/restart_point.hpp).
+#include "libcdem/step/stage.hpp"
+
+#include <chrono>
+#include <utility>
+
+namespace cdem {
+
+void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
+  if (can_be_left())
+    share_anew();
+  keep_last_good();
+  give_back();
+  if (!context_.restart_point)
+    return;
+  RestartPoint& point = **context_.restart_point;
+  if (point.step == step && (step > 0 || begins_))
+    return;
+  point.step = step;
+  point.wall_time = wall_time();
+  note(point, std::move(loop_state), previous_force);
+  if (context_.procedure_state)
+    point.procedure_state = context_.procedure_state();
+  contacts_.start_anew(context_.model, work.contact, true);
+  if (context_.checkpoints)
+    context_.checkpoints->marked();
+}
+
+void Stage::keep_end(std::vector<double> loop_state) {
+  if (!context_.restart_point)
+    return;
+  require_sound_state();
+  synchronise_contacts(context_.log); // as the next step would
+  keep_last_good();
+  kept_end_ = true;
+  RestartPoint point;
+  note(point, std::move(loop_state), {});
+  *context_.restart_point = std::move(point);
+}
+
+void Stage::note(RestartPoint& point, std::vector<double> loop_state,
+                 const std::vector<Node>& previous_force) const {
+  point.begun = true;
+  point.breaks = context_.log.breaks.size();
+  point.one_way = context_.log.one_way;
+  point.loop_state = std::move(loop_state);
+  if (shared_) {
+    const StateShares& shares = shared_->shares();
+    StateShares::copy(previous_force, point.previous_force, shares.nodes());
+    StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
+    StateShares::copy(work.bond.stretch, point.stretch, shares.points());
+    StateShares::copy(work.bond.viscous, point.viscous, shares.points());
+  } else {
+    point.previous_force = previous_force;
+    point.spring_force = work.bond.spring_force;
+    point.stretch = work.bond.stretch;
+    point.viscous = work.bond.viscous;
+  }
+  point.contact_step = work.contact.last_step;
+  point.strain_step = work.strain_step;
+  point.near = work.near.crack_known ? near_of_all() : std::vector<std::uint8_t>();
+  point.slid = slid_;
+  point.flows = flow_patterns(work.resolved);
+}
+
+void Stage::go_on_from(const RestartPoint& from) {
+  context_.last_good = context_.state;
+  if (context_.restart_point)
+    *context_.restart_point = from;
+  step = from.step;
+  broken_tension_before_ = from.broken_tension_before;
+  broken_shear_before_ = from.broken_shear_before;
+  start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+      std::chrono::duration<double>(from.wall_time));
+  if (!from.begun)
+    return;
+  begins_ = false;
+  ContactUpdate::go_on(work.contact);
+  work.contact.last_step = from.contact_step;
+  work.strain_step = from.strain_step;
+  if (!from.near.empty())
+    take_near(from.near);
+  work.bond.spring_force = from.spring_force;
+  work.bond.stretch = from.stretch;
+  work.bond.viscous = from.viscous;
+  slid_ = from.slid;
+  take_flow_patterns(from.flows, work.resolved);
+  update_external(work.resolved, context_.state.time, moving());
+}
+
+} // namespace cdem
