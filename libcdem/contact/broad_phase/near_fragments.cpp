@@ -292,16 +292,16 @@ private:
       // tetrahedra give no distance: behind an edge of the fragment tetrahedra that only touch the edge count as nearer
       // than the one of the triangle behind which the semi-spring is. So triangles are chosen by the distance of one of
       // them: the nearest is no further away.
-      const double nearest = least_distance(source, spring, begin, end);
-      if (nearest <= near) {
+      // So are those up to a tetrahedron that holds the semi-spring, or may do so: it is inside then (near_springs.cpp).
+      const double deepest = 2 * depth_of(work_, all_.triangle(source)) + near,
+                   furthest = std::min(deepest, distance_needed(source, spring, begin, end, near, deepest)),
+                   reach = furthest + 2 * near + all_.slack(of);
+      if (furthest <= near) {
         for (std::size_t i = begin; i < end; ++i)
-          if (all_.solids[around_[i].solid].outside(spring) <= nearest + 2 * near + all_.slack(of))
+          if (all_.solids[around_[i].solid].outside(spring) <= reach)
             add_triangles(source, corner, around_[i].solid, targets);
         continue;
       }
-      // Further from the surface than the skins.
-      const double deepest = 2 * depth_of(work_, all_.triangle(source)) + near;
-      const double reach = std::min(nearest, deepest) + 2 * near + all_.slack(of);
       ++asked_;
       grid_->each_near(spring, reach, [&](int i) {
         if (all_.mover_of[i] != of || seen_[i] == asked_)
@@ -313,16 +313,26 @@ private:
     }
   }
 
-  double least_distance(int source, const Vec3& x, std::size_t begin, std::size_t end) const {
-    double least2 = std::numeric_limits<double>::infinity();
-    for (std::size_t i = begin; i < end; ++i)
-      for (const int target : all_.solids[around_[i].solid].triangles)
+  // m, of the nearest triangle, or of the nearest one of a tetrahedron that stands nearer than `near` and is no deeper than
+  // `deepest`: whichever is further.
+  double distance_needed(int source, const Vec3& x, std::size_t begin, std::size_t end, double near,
+                         double deepest) const {
+    double nearest = std::numeric_limits<double>::infinity(), holding = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Solid& solid = all_.solids[around_[i].solid];
+      double least2 = std::numeric_limits<double>::infinity();
+      for (const int target : solid.triangles)
         if (target >= 0 && all_.may_meet(source, target)) {
           const Corners& y = all_.active.facets[target].x;
           const auto at = geom::nearest_on_triangle(x, y[0], y[1], y[2]);
           least2 = std::min(least2, (weighted(y, at.weights) - x).squaredNorm());
         }
-    return std::sqrt(least2);
+      const double least = std::sqrt(least2);
+      nearest = std::min(nearest, least);
+      if (least > holding && least <= deepest && solid.outside(x) <= near)
+        holding = least;
+    }
+    return std::max(nearest, holding);
   }
 
   bool both_tets(int of) const {

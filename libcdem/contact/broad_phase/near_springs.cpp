@@ -41,7 +41,7 @@ public:
       one_place_of_targets = std::max(one_place_of_targets, one_place(to));
     }
     const double deepest = std::min(2 * depth_of(work_, from), margins_(from) + margin_of_targets);
-    find_nearest(pairs, of_springs, begin, end,
+    find_nearest(pairs, of_springs, begin, end, skins,
                  (1 + 8 * same_place) * (deepest + 3 * skins) + 8 * one_place_of_targets);
     std::array<double, 3> need{};
     for (int corner = 0; corner < 3; ++corner) {
@@ -56,6 +56,9 @@ public:
       // semi-spring may be outside the nearest triangle and inside the next.
       if (d <= (found.inside() || !of_springs.empty() ? deep + skins : skins))
         need[corner] = d + 2 * skins;
+      for (const HoldingTet& tet : holding_[corner])
+        if (tet.distance <= deepest + skins)
+          need[corner] = std::max(need[corner], tet.distance + 2 * skins);
     }
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t springs = 0;
@@ -79,9 +82,30 @@ private:
   // m, within which places count as one with the nearest.
   double one_place(const ContactTriangle& to) const { return gives_ * to.height; }
 
+  // A tetrahedron of a fragment that holds a spring, or may do so before the next search: m, to the nearest of its triangles.
+  // The spring is inside then, also where it stands over the nearest triangle of all, as where parts of the fragment that
+  // hang together elsewhere are pressed into each other.
+  struct HoldingTet {
+    int tet;
+    double distance;
+  };
+  void add_holding(int corner, int target, const Nearest& found, const geom::Vec3& spring, double skins) {
+    const ContactTriangle& triangle = this->triangle(target);
+    if (found.height > skins || outside_tet(active_.facets[target].x, apex_of(model_, state_, triangle),
+                                            spring, found.height) > skins)
+      return;
+    const double distance = std::sqrt(found.distance2);
+    for (HoldingTet& known : holding_[corner])
+      if (known.tet == triangle.tet) {
+        known.distance = std::min(known.distance, distance);
+        return;
+      }
+    holding_[corner].push_back({triangle.tet, distance});
+  }
+
   // What is further off than `reach` is left out: nothing comes of it, nor is it one place with what something comes of.
   void find_nearest(const Pairs& pairs, const std::vector<std::uint8_t>& of_springs, std::size_t begin,
-                    std::size_t end, double reach) {
+                    std::size_t end, double skins, double reach) {
     const Corners& x = active_.facets[pairs[begin].first].x;
     std::array<geom::Vec3, 3> spring;
     std::array<bool, 3> gets_in{};
@@ -95,6 +119,8 @@ private:
     std::array<NearestOfTets, 3> of_surface;
     nearest_ = {};
     distance_.clear();
+    for (std::vector<HoldingTet>& each : holding_)
+      each.clear();
     for (std::size_t i = begin; i < end; ++i) {
       const int target = pairs[i].second;
       const Facet& to = active_.facets[target];
@@ -112,6 +138,7 @@ private:
         }
         of_surface[corner].add(found, to.x, to.normal, triangle(target).height, gives_, spring[corner],
                                [&] { return apex_of(model_, state_, triangle(target)); });
+        add_holding(corner, target, found, spring[corner], skins);
       }
     }
     for (int corner = 0; of_tets && corner < 3; ++corner)
@@ -125,10 +152,11 @@ private:
   const SearchMargin& margins_;
   const ActiveSurface& active_;
   const Skins& skins_;
-  Skins own_skins_;                             // of blocks, not those of fragments relative to each other
-  double gives_ = 0;                            // of the fragment
-  std::array<Nearest, 3> nearest_;              // of each spring
-  std::vector<std::array<double, 3>> distance_; // m, of each target from each spring
+  Skins own_skins_;                                // of blocks, not those of fragments relative to each other
+  double gives_ = 0;                               // of the fragment
+  std::array<Nearest, 3> nearest_;                 // of each spring
+  std::array<std::vector<HoldingTet>, 3> holding_; // of each spring
+  std::vector<std::array<double, 3>> distance_;    // m, of each target from each spring
 };
 
 // By source, fragment of the target and target: sources are counted, and only the few targets of each are compared.

@@ -89,6 +89,12 @@ const Contact* Evaluation::before(const Contact& like) const {
 
 namespace {
 
+Contact spring_contact(int source, int corner, int fragment) {
+  Contact c(Contact::spring, 3 * source + corner);
+  c.fragment = fragment;
+  return c;
+}
+
 // The distances of one semi-spring from its targets, as a search for the nearest goes through them.
 struct Distances {
   double least = std::numeric_limits<double>::infinity(), second = least; // m
@@ -315,7 +321,6 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       sleeps = 0;
       continue;
     }
-    // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep.
     const double shallow =
         std::min(work_.shallow[source.block], work_.shallow[surface_.triangles[found.target].block]);
     const auto sleep_without_contact = [&] { // too deep to begin, by the motion of the step too
@@ -325,12 +330,18 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
     };
     const double reach = row.reach + ways;
     const double covered = 2 * depth_limit(work_, source, surface_.triangles[found.target]);
+    const int fragment = work_.fragment[found.target];
+    // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep. But a contact
+    // goes on at any depth, as one that leaves a part of the fragment where another part overlaps it. All are looked at then.
+    const bool too_deep = !all && found.distance2 > reach * reach;
+    if (too_deep && before(spring_contact(row.source, corner, fragment)))
+      deepest2 = std::max(deepest2, found.distance2);
     // Beyond what the search covers nearer ones may not be in the row.
-    if ((!all && found.distance2 > reach * reach) || found.distance2 > covered * covered) {
+    if (too_deep || found.distance2 > covered * covered) {
       sleep_without_contact();
       continue;
     }
-    if (add_contact(row.source, corner, spring[corner], work_.fragment[found.target], found,
+    if (add_contact(row.source, corner, spring[corner], fragment, found,
                     begins_at(row.source, found.target, shallow))) {
       deepest2 = std::max(deepest2, found.distance2);
       sleeps = 0;
@@ -386,8 +397,7 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   // The two sides of a face that has broken and not yet parted are held by its own springs.
   if (held_by_face(source, nearest.target))
     return false;
-  Contact c(Contact::spring, 3 * source + corner);
-  c.fragment = fragment;
+  Contact c = spring_contact(source, corner, fragment);
   c.target = nearest.target;
   const Contact* const old = before(c);
   const ContactArms arms = spring_arms(model_, state_, from, corner, to, nearest.at.weights);
@@ -414,91 +424,6 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   law = as_stiff_as(c, law);
   finish(c, old, motion, arms, law, from, to);
   return true;
-}
-
-Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, const int* nodes,
-                                                  const double* weights, int count, double force) const {
-  const int block = side.block;
-  geom::Vec3 place = geom::Vec3::Zero(), velocity = geom::Vec3::Zero();
-  double local = 0; // 1/kg
-  // kg, of the corner of the side's own tet: the contacts around a node have the mass of the node together.
-  const double density = model_.bodies[model_.blocks[block].body].material.density,
-               corner = density * side.area * side.height / 12;
-  for (int i = 0; i < count; ++i) {
-    place += weights[i] * place_of(model_, state_, nodes[i]);
-    velocity += weights[i] * velocity_of(state_, nodes[i]);
-    local += weights[i] * weights[i] / moving_mass(model_, state_)[nodes[i]] *
-             std::max(1.0, model_.node_mass[nodes[i]] / corner);
-  }
-  if (work_.last_displacement[block] == 0)
-    return {velocity}; // held: it does not turn round
-  const Block& b = model_.blocks[block];
-  const double whole = work_.block_forces[block] / (b.mass.volume * density);
-  const double own = whole + (b.rigid >= 0 ? 0 : force * local);
-  const BlockMotion& motion = work_.block_motion[block];
-  if (motion.whole)
-    return {motion.velocity + motion.spin.cross(place - motion.centroid), whole, own};
-  return {velocity, own, own};
-}
-
-void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
-                        const ContactLaw& law, const ContactTriangle& from, const ContactTriangle& to) {
-  const geom::Vec3 velocity = velocity_past(state_, arms);
-  motion.slid = work_.step * velocity;
-  if (work_.restitution && law.damping_ratio > 0) {
-    const double force = law.kn * std::max(0.0, motion.depth);
-    const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 3, force),
-                     target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
-    const auto part = [&](double speed, double acceleration) { // of the speed that a step can reverse
-      const double reversed = work_.step * acceleration;
-      return std::abs(speed) < reversed ? speed / reversed : std::copysign(1.0, speed);
-    };
-    motion.approach = part((target.velocity - source.velocity).dot(motion.normal),
-                           source.acceleration + target.acceleration);
-    // Bodies that part faster than that are no bodies at rest, and nothing turns round.
-    motion.held_at_most = motion.approach <= -1
-                              ? 1
-                              : std::abs(part(2 * velocity.dot(motion.normal),
-                                              source.own_acceleration + target.own_acceleration));
-  }
-  ContactForce force;
-  const bool own = old && key(*old) == key(c);
-  if (own && work_.step == 0 && old->target == c.target) {
-    c = *old; // nothing moved
-  } else {
-    c.normal = old ? old->normal : motion.normal;
-    if (old) {
-      c.shear = old->shear;
-      c.damping = old->damping;
-    }
-    c.depth = own ? old->depth : 0;
-    c.reference_penetration =
-        own ? next_reference_penetration(*old, motion) : first_reference_penetration(motion);
-    if (old && !own)
-      force.friction -= take_over(c, *old, law, motion);
-    else if (old && old->target != c.target)
-      force.friction += target_change_loss(*old, law, motion);
-    const ContactLoss loss = advance(c, law, motion);
-    force.friction += loss.friction;
-    force.damping = loss.damping;
-  }
-  force.arms = arms;
-  force.source_block = from.block;
-  force.target_block = to.block;
-  force.normal = normal_force(c, law) * c.normal;
-  force.shear = c.shear;
-  force.stiffness = law.kn * (1 + law.damping_ratio) + law.ks;
-  out_.contacts.push_back(c);
-  out_.forces.push_back(force);
-  // Not what was found so deep: between the fragments of a broken body that still hang together by a corner.
-  ContactSums& sums = out_.sums;
-  const double pressed = c.effective_penetration(), part = pressed / depth_limit(work_, from, to);
-  sums.depth = std::max(sums.depth, pressed);
-  sums.depth_over_height = std::max(sums.depth_over_height, pressed / std::min(from.height, to.height));
-  if (part > sums.deepest) {
-    sums.deepest = part;
-    std::tie(sums.deepest_source, sums.deepest_target) = triangles_of(c);
-  }
 }
 
 } // namespace cdem
