@@ -17,6 +17,7 @@
 #include <array>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace cdem {
 
@@ -106,27 +107,27 @@ struct Simulation::Impl {
   auto run_stage(const Solve& solve, const std::array<double, 4>* step_choice = nullptr) {
     std::optional<RestartPoint> entry;
     entry.swap(from);
-    std::optional<End> before;
-    before.swap(end_of_run);
     const struct Leave {
       Impl& s;
-      ~Leave() { s.restart_point.reset(); }
+      ~Leave() {
+        if (s.restart_point) // else the stage was refused before it had begun, and nothing has changed
+          s.end_of_run.reset();
+        s.restart_point.reset();
+      }
     } leave{*this};
     StageContext context = next_stage();
     context.restart_point = &restart_point;
     if (entry)
       last_good = kept;
-    else if (before && step_choice && before->step_choice == *step_choice)
-      entry = take_up(std::move(*before));
+    else if (end_of_run && step_choice && end_of_run->step_choice == *step_choice)
+      entry = take_up(std::move(*end_of_run));
     if (entry) {
       restart_point = entry;
       context.from = &*entry;
-    } else {
-      keep_start_of_loop(context);
     }
     auto result = solve(context);
     if (step_choice)
-      end_of_run = End{std::move(*restart_point), *step_choice};
+      end_of_run = End{*std::exchange(restart_point, std::nullopt), *step_choice};
     return result;
   }
 

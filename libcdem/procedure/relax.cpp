@@ -150,8 +150,8 @@ RelaxResult relax(const StageContext& context, const RelaxOptions& options, cons
   State& state = context.state;
   require_no_quiet(context.conditions);
   require_given_pressures(context.conditions);
+  require_held(context.model, resolve(context.model, state, context.conditions));
   Stage stage(context, kind, context.model.length);
-  require_held(context.model, stage.work.resolved);
   stage.work.contact.restitution = false; // its steps are no times
   stage.in_real_time = false;
   FictitiousMasses masses(context.model, stage.work.resolved.bolts);

@@ -66,6 +66,17 @@ void require_columns_stable(const ResolvedConditions& r, double time_step) {
         "name a time_step below it");
 }
 
+// Before the stage, which nothing refuses any more.
+double choose_first_step(const StageContext& context, const RunOptions& options) {
+  const double time_step = choose_time_step(context, options);
+  const ResolvedConditions resolved = resolve(context.model, context.state, context.conditions);
+  require_columns_stable(resolved, time_step);
+  if (options.mass_scaling.on() && !resolved.water_mass.empty())
+    throw geom::InputError(
+        "mass_scaling: not beside a flow with added_mass, which is inertia too; leave one out");
+  return time_step;
+}
+
 // The time of each step of a run whose step may get shorter as contacts close.
 class Clock {
 public:
@@ -137,9 +148,14 @@ double stable_time_step(const Model& model, const std::vector<ResolvedBolt>& bol
 RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
   State& state = context.state;
   const RestartPoint* const from = context.from;
-  Stepping stepping{choose_time_step(context, options), 0, options.local_damping, options.damp_flight};
+  Stepping stepping{from ? Clock(from->loop_state).time_step() : choose_first_step(context, options), 0,
+                    options.local_damping, options.damp_flight};
   Stage stage(context, kind, run_away_lengths * context.model.length);
-  ScaledStage scaled(context, options.mass_scaling.on() ? stepping.time_step : 0, options.safety);
+  ScaledStage scaled(context,
+                     !options.mass_scaling.on() ? 0
+                     : from                     ? from->loop_state.back()
+                                                : stepping.time_step,
+                     options.safety);
   stage.follows_fragments = options.follows_fragments;
   stage.escapes = {left_lengths * context.model.length,
                    (options.holds_what_left ? left_lengths : run_away_lengths) * context.model.length};
@@ -148,15 +164,14 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
   stage.work.contact.looks_at_all = options.looks_at_all_contacts;
   stage.work.damped = !state.viscous_stress.empty();
   std::vector<double> viscous = viscous_forces(context.model);
-  require_columns_stable(stage.work.resolved, stepping.time_step);
   Stage::StepReport report;
   Clock clock(state.time, stepping.time_step, options);
   if (from) {
     clock = Clock(from->loop_state);
     if (from->step == 0)
       clock.set_goal(state.time, options);
-    scaled.take(from->loop_state, from->step > 0);
-    stepping.time_step = clock.time_step();
+    else
+      scaled.take(from->loop_state);
   }
   const auto set_goals = [&] {
     // What only `stop` ends has no goal to tell of.
@@ -194,9 +209,6 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
     stage.scale_masses = [&] { scaled.scale(); };
   else
     stage.carry_water();
-  if (scaled.on() && !stage.work.resolved.water_mass.empty())
-    throw geom::InputError(
-        "mass_scaling: not beside a flow with added_mass, which is inertia too; leave one out");
   // Where damping takes the energy anyway, and where the user has chosen the step, impacts are as coarse as the step.
   const bool keeps_energy_of_impacts =
       options.local_damping == 0 && options.damp_flight && options.time_step == 0;

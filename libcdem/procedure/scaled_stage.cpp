@@ -56,11 +56,8 @@ void ScaledStage::add_to(std::vector<double>& loop_state) const {
   loop_state.insert(loop_state.end(), {kinetic_, stored_, step_});
 }
 
-void ScaledStage::take(const std::vector<double>& loop_state, bool samples_too) {
+void ScaledStage::take(const std::vector<double>& loop_state) {
   if (!on() || loop_state.size() < 3)
-    return;
-  step_ = loop_state.back();
-  if (!samples_too)
     return;
   kinetic_ = loop_state[loop_state.size() - 3];
   stored_ = loop_state[loop_state.size() - 2];

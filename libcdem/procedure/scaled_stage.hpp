@@ -22,9 +22,9 @@ public:
   // Energies of a kept state, for the share of motion in them.
   void sample();
   ScaledMasses report() const;
-  // A loop carries this from step to step.
+  // A loop carries this from step to step; the last number is the time step, s.
   void add_to(std::vector<double>& loop_state) const;
-  void take(const std::vector<double>& loop_state, bool samples_too);
+  void take(const std::vector<double>& loop_state); // the samples
 
 private:
   void set(std::vector<double> masses);

@@ -137,3 +137,17 @@ TEST_CASE("divided runs: what is changed between two runs counts", "[run]") {
   CHECK(s.mean("velocity.z", body_of("body")) == Approx(3).margin(0.5));
   CHECK(s.state_hash() != other.state_hash());
 }
+
+TEST_CASE("divided runs: a call in between that is refused changes nothing", "[run]") {
+  cdem::Simulation whole = in_flow(Kind::cohesive), divided = in_flow(Kind::cohesive);
+  run(whole, steps);
+  run(divided, 177);
+  const std::uint64_t hash = divided.state_hash();
+  cdem::RunOptions too_long;
+  too_long.steps = 10;
+  too_long.time_step = 1;
+  CHECK_THROWS_AS(divided.run(too_long), geom::InputError);
+  CHECK(divided.state_hash() == hash);
+  run(divided, steps - 177);
+  check_same_end(divided, whole);
+}
