@@ -294,7 +294,8 @@ void bind_water_fields(Module& m) {
       "acceleration, the acceleration follows from the velocity.",
       function_record.fields(), field, "cdem.Water");
   m.add("water.wave",
-        "A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker "
+        "A regular wave that keeps its shape, over a flat bed at z = level - depth. stream_function: order "
+        "N, any depth (Rienecker "
         "and Fenton 1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small "
         "waves. A wave higher than the breaking limit is refused.",
         wave_given.fields(), wave, "cdem.Water");
