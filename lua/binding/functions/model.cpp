@@ -4,6 +4,7 @@
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/schema/answers.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/text/nearest.hpp"
 
