@@ -56,6 +56,7 @@ struct Simulation::Impl {
   void warn_of_dry_rock(const InitialStress&);
   void warn_of_distant_table(const std::shared_ptr<const WaterTable>&);
   void warn_of_open_water(const StillWater&);
+  void warn_of_uneven_bed(const Flow&);
   void warn_of_unstressed_rock();
   // Initial stresses that the script has given before the first stage, and the blocks of each.
   struct GivenStress {

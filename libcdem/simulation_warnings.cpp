@@ -89,6 +89,8 @@ void Simulation::Impl::warn_before_stage() {
   warn_of_stress_jumps();
   for (const StillWater& water : conditions.still_waters)
     warn_of_open_water(water);
+  for (const Flow& flow : conditions.flows)
+    warn_of_uneven_bed(flow);
 }
 
 void Simulation::Impl::warn_of_loads_on_supports() {
@@ -415,6 +417,41 @@ void Simulation::Impl::warn_of_open_water(const StillWater& water) {
       water.level ? "level" : "table",
       water.level ? fmt::format("level = {:g}", *water.level) : "water_table = the same");
   tell(line);
+}
+
+// Ground is what the flow does not load. Waves made for a flat bed do not change over ground that rises from it: they
+// neither steepen nor break.
+void Simulation::Impl::warn_of_uneven_bed(const Flow& flow) {
+  constexpr double alike = 0.05; // of the depth; and of the area of the ground
+  const auto bed = flow.water ? flow.water->flat_bed() : std::nullopt;
+  if (replaying || !bed)
+    return;
+  std::vector<char> is_loaded(model.bodies.size(), 0);
+  const auto load = [&](const Selection& on) {
+    for (const int face : selected_outer_faces(model, on))
+      is_loaded[model.blocks[model.outer_faces[face].block].body] = 1;
+  };
+  load(flow.on);
+  std::for_each(flow.also.begin(), flow.also.end(), load);
+  double area = 0, uneven = 0, lowest = bed->level, highest = -std::numeric_limits<double>::infinity();
+  for (const OuterFace& face : model.outer_faces)
+    if (is_loaded[model.blocks[face.block].body] == 0 && face.normal.z() > least_slope)
+      each_face_node(model, face, [&](int node, double share) {
+        const double z = model.node_position[node].z(), level_share = share * face.normal.z();
+        if (z > bed->level)
+          return;
+        area += level_share;
+        if (std::abs(z - bed->z) > alike * (bed->level - bed->z))
+          uneven += level_share;
+        lowest = std::min(lowest, z);
+        highest = std::max(highest, z);
+      });
+  if (uneven > alike * area)
+    tell(fmt::format(
+        "flow on {}: its waves keep their shape over a flat bed at z = {:.4g} m, but the ground under water "
+        "lies between z = {:.4g} and {:.4g} m; cdem.water.slope computes waves that run up a slope, and the "
+        "depth of a flat bed is level - z of the ground",
+        flow.on.text, bed->z, lowest, highest));
 }
 
 } // namespace cdem

@@ -1,5 +1,6 @@
 #include "libcdem/fracture/strength_watch.hpp"
 
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/own_rocks.hpp"
 #include "libcdem/model/build/face_strength.hpp"

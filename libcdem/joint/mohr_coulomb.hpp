@@ -9,6 +9,7 @@
 #pragma once
 
 #include "libcdem/joint/bond_mode.hpp"
+#include "libcdem/parallel/node.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -24,13 +25,13 @@ struct SpringStrength {
 
 // c - t_n tan(phi): negative beyond the tip of the cone. T: one number or several side by side.
 template <class T>
-T shear_strength(const T& cohesion, const T& tan_friction, const T& normal) {
+CDEM_INLINE T shear_strength(const T& cohesion, const T& tan_friction, const T& normal) {
   return cohesion - tan_friction * normal;
 }
 
 // What cohesion has to carry of a shear load, |t_s| + t_n tan(phi): at most c while the bond holds.
 template <class T>
-T cohesive_load(const T& shear, const T& tan_friction, const T& normal) {
+CDEM_INLINE T cohesive_load(const T& shear, const T& tan_friction, const T& normal) {
   return shear + normal * tan_friction;
 }
 

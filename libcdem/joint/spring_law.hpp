@@ -27,8 +27,8 @@ struct HeldByContact {
 };
 
 template <class T>
-HeldByContact<T> held_by_contact(const T& kn, const T& ks, const T& tan_friction, const T& open,
-                                 const T& shear_length) {
+CDEM_INLINE HeldByContact<T> held_by_contact(const T& kn, const T& ks, const T& tan_friction, const T& open,
+                                             const T& shear_length) {
   const T none = T{}, all = none + 1.0;
   const T held = held_by_friction<T>(ks * shear_length, friction_limit<T>(-(kn * open), tan_friction));
   return {open > none ? none : all, open > none ? none : held};

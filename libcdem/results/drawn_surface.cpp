@@ -2,6 +2,7 @@
 
 #include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/results/empty_field.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <algorithm>
 #include <map>

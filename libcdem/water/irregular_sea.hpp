@@ -36,6 +36,9 @@ public:
   double density() const override { return given_.density; }
   bool has_dynamic_pressure() const override { return true; }
   bool has_pressure() const override { return true; }
+  std::optional<FlatBed> flat_bed() const override {
+    return FlatBed{given_.level - given_.depth, given_.level};
+  }
 
   struct Component {
     double amplitude = 0, omega = 0, wave_number = 0, phase = 0; // m, rad/s, 1/m, rad

@@ -62,6 +62,7 @@ struct WaveField final : WaterField {
   double density() const override { return given.density; }
   bool has_dynamic_pressure() const override { return true; }
   bool has_pressure() const override { return true; }
+  std::optional<FlatBed> flat_bed() const override { return FlatBed{given.level - given.depth, given.level}; }
 
   double period() const; // s
   WaveGiven given;

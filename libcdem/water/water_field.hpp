@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 
 namespace cdem {
 
@@ -19,6 +20,11 @@ struct WaterPoint {
   double surface = std::numeric_limits<double>::infinity();
 };
 
+// What waves that keep their shape are made for.
+struct FlatBed {
+  double z = 0, level = 0; // m; of still water
+};
+
 class WaterField {
 public:
   virtual ~WaterField() = default;
@@ -29,6 +35,7 @@ public:
   // puts on a body at rest (Froude-Krylov). Otherwise it is hydrostatic or 0, and density x volume x acceleration is added.
   virtual bool has_dynamic_pressure() const = 0;
   virtual bool has_pressure() const = 0; // false: no buoyancy comes from it
+  virtual std::optional<FlatBed> flat_bed() const { return {}; }
 };
 
 } // namespace cdem

@@ -45,6 +45,25 @@ TEST_CASE("an amplitude must give a finite number, and is asked at once", "[lua]
   CHECK_THAT(error_of(front + "2 }"), Contains("amplitude = 2: must be a function"));
 }
 
+TEST_CASE("an error inside a function of the script tells the call", "[lua]") {
+  const auto error = [](const std::string& call) { return error_of(column() + call); };
+  CHECK_THAT(error("model:traction{ on = 'x+', stress = {1, 0, 0}, amplitude = function(t)\n"
+                   "  if t > 0 then return t + missing end\n  return 1\nend }\nmodel:run{ duration = 0.01 }"),
+             Contains("case.lua:8: attempt to perform arithmetic on a nil value (global 'missing'), in "
+                      "amplitude(") &&
+                 Contains(") of case.lua:7") && !Contains("amplitude(0)"));
+  CHECK_THAT(error("model:gravity{ vector = function(t) return {0, 0, -missing} end }"),
+             Contains("(global 'missing'), in vector(0) of case.lua:7"));
+  CHECK_THAT(error("model:traction{ on = 'x+', pressure = function(x, y, z) return x.y end }\n"
+                   "model:run{ steps = 1 }"),
+             Contains("attempt to index a number value (local 'x'), in pressure(2, ") &&
+                 Contains(") of case.lua:7"));
+  CHECK_THAT(error("cdem.water.field{ velocity = function(x, y, z, t) error('dry', 0) end }"),
+             Contains("dry, in velocity(0, 0, 0, 0) of case.lua:7"));
+  CHECK_THAT(error("model:fix{ on = function(x, y, z) return missing > 0 end }"),
+             Contains("in function(") && Contains(") of case.lua:7"));
+}
+
 TEST_CASE("a predicate must say true or false", "[lua]") {
   CHECK_THAT(error_of(column() + "model:fix{ on = function(x, y, z) return x end }"),
              Contains("must be true or false"));

@@ -77,6 +77,11 @@ TEST_CASE("supports, loads and gravity follow records, lists and functions", "[l
              Contains("amplitude: point 2"));
   CHECK_THAT(error_of(head + "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = 3 }"),
              Contains("a list { {time, value}"));
+  CHECK_THAT(
+      error_of(head +
+               "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = { times = {0, 1}, values = {0, 1}, "
+               "outsides = 'zero' } }"),
+      Contains("amplitude: outsides: no such key; did you mean outside?"));
   CHECK_THAT(error_of(head + "m:gravity{ vector = function(t) return 3 end }"),
              Contains("three finite numbers"));
   CHECK_THAT(error_of(head + "m:record_reaction{ name = 'a', on = 'nowhere' }"), Contains("nowhere"));

@@ -231,6 +231,26 @@ TEST_CASE("water that stands above a floor dug later is told of", "[lua]") {
   CHECK(the_warning(dug + "model:water{ level = 1 }\n" + relax, words).empty());
 }
 
+TEST_CASE("waves for a flat bed over ground that rises are told of", "[lua]") {
+  const std::string words = "its waves keep their shape over a flat bed";
+  const auto script = [](const std::string& floor, const std::string& water) {
+    std::string text = floor_and_units;
+    const std::string flat = "cdem.solid.box{ size = {2, 2, 0.5}, origin = {0, 0, -0.5} }";
+    text.replace(text.find(flat), flat.size(), flat + floor);
+    return text + "model:flow{ on = 'units', water = cdem.water." + water + " }\nmodel:run{ steps = 3 }\n";
+  };
+  const std::string slope = ":rotate{ axis = {0, 1, 0}, angle = -20 }:translate{ shift = {0, 0, -0.6} }",
+                    wave = "wave{ height = 0.1, period = 3, level = 1, depth = 1 }",
+                    sea = "sea{ significant_height = 0.1, peak_period = 3, level = 1, depth = 3 }";
+  CHECK_THAT(the_warning(script(slope, wave), words), Contains("flow on body \"units\"") &&
+                                                          Contains("a flat bed at z = 0 m") &&
+                                                          Contains("cdem.water.slope"));
+  CHECK_THAT(checked(script(slope, wave), words), Contains("case.lua:11: warning: flow on"));
+  CHECK_THAT(the_warning(script("", sea), words), Contains("a flat bed at z = -2 m"));
+  CHECK(the_warning(script("", wave), words).empty());
+  CHECK(the_warning(script(slope, "uniform{ velocity = {1, 0, 0}, level = 1 }"), words).empty());
+}
+
 TEST_CASE("a check tells of a factor of safety that the fall of one small block decides", "[lua]") {
   const auto summary = [](const std::string& more) {
     Script script(column("{6, 5, 6}", "{6, 5, 6}") +

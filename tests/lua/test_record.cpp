@@ -82,6 +82,36 @@ TEST_CASE("rows become columns under the same names", "[lua]") {
   CHECK(part_record.of_columns().fields[0].type.lua_type() == "number[]");
 }
 
+TEST_CASE("a member that varies takes a function of the script, or a number or vector", "[lua]") {
+  struct Push {
+    std::function<double(double)> size;
+    std::function<geom::Vec3(const geom::Vec3&, double)> along;
+    bool late = true;
+  };
+  struct Doubling final : Reference {
+    Values call(const Values& given) const override { return {2 * given[0].number()}; }
+    Value copy() const override { return {}; }
+    std::string place() const override { return "case.lua:1"; }
+  };
+  const Record<Push> record{
+      {{number_or_function("size", "(time: number): number").at_least(0).unit("N"), &Push::size},
+       {vec3_or_function("along", "(x: number, y: number, z: number, time: number): number[]"), &Push::along},
+       {choice("when", {"early", "late"}).standard(), &Push::late}}};
+  const Push constant = record.read(
+      check(Table{{"size", 3}, {"along", geom::Vec3(1, 2, 3)}, {"when", "early"}}, record.fields()));
+  CHECK(constant.size(7) == 3);
+  CHECK(constant.along(geom::Vec3(0, 0, 0), 7) == geom::Vec3(1, 2, 3));
+  CHECK_FALSE(constant.late);
+  const Value doubling(std::static_pointer_cast<Reference>(std::make_shared<Doubling>()));
+  const Push varying = record.read(check(Table{{"size", doubling}, {"along", doubling}}, record.fields()));
+  CHECK(varying.size(4) == 8);
+  CHECK_THROWS_WITH(varying.size(-4), "size(-4) of case.lua:1 = -8: must be a finite number >= 0 N");
+  CHECK_THROWS_WITH(varying.along(geom::Vec3(1, 2, 3), 4),
+                    "along(1, 2, 3, 4) of case.lua:1 = 2: must be three finite numbers {x, y, z}");
+  CHECK(varying.late);
+  CHECK_FALSE(record.read(check(Table(), record.fields())).size);
+}
+
 TEST_CASE("every default that a struct gives is known", "[lua]") {
   const auto require_known = [](const std::string& call, const std::vector<Field>& fields) {
     for (const Field& field : fields) {

@@ -1,6 +1,8 @@
 // The verdict of a relaxation and the factor of safety in scripts.
 #include "tests/lua/script.hpp"
 
+#include "lua/binding/module/module.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace cdem::script;
@@ -25,6 +27,17 @@ const std::string head =
     "  m:gravity{ vector = {9.81 * math.sin(a), 0, -9.81 * math.cos(a)} }\n"
     "  return m\nend\n"
     "local exact = math.tan(math.rad(35)) / math.tan(math.rad(25))\n";
+
+// Lua that asserts that the names in a table are those of the module's record.
+std::string has_fields_of(const std::string& table, const std::string& record) {
+  std::string declared;
+  for (const RecordType& type : module().records)
+    if (type.name == record)
+      for (const Field& field : type.fields)
+        declared += field.name + " = true, ";
+  return "for name in pairs(" + table + ") do assert(({ " + declared + "})[name], name) end\n" +
+         "for name in pairs{ " + declared + "} do assert(" + table + "[name], name) end\n";
+}
 
 } // namespace
 
@@ -101,6 +114,16 @@ assert(slope.mechanism.volume > 5 and math.abs(-slope.mechanism.displacement[3] 
   CHECK(script.wrote("trials/history_2.csv")); // of a trial; the model's own is history.csv
   CHECK(script.wrote("history.csv"));
   CHECK_THAT(script.read("report.json"), Contains("of_all_volume") && Contains("of_slope_blocks"));
+}
+
+TEST_CASE("the tables of a factor of safety have the fields that the reference lists", "[lua][safety]") {
+  const std::string search = "local f = cdem.factor_of_safety{ model = incline(35), reduce = {'joints'}, "
+                             "lower = 0.9, upper = 2, tolerance = 1 }\n" +
+                             has_fields_of("f", "FactorOfSafety") + has_fields_of("f.mechanism", "Mechanism");
+  CHECK(error_of(head + search + has_fields_of("f.trials[1]", "SafetyTrial")) == "");
+  Script checked(head + search);
+  checked.settings.check_only = true;
+  CHECK(checked.error() == "");
 }
 
 TEST_CASE("a factor of safety says what it lacks", "[lua][safety]") {

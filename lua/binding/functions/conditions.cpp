@@ -1,9 +1,7 @@
 // Supports, loads and initial states of a model.
-#include "lua/binding/functions/over_place.hpp"
 #include "lua/binding/functions/over_time.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_warnings.hpp"
-#include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/water_object.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/session/selections.hpp"
@@ -29,17 +27,34 @@ std::string shown(const Selection& s) {
   return s.text;
 }
 
+Field on() {
+  return place("on").required().doc("where: a place or a list of places");
+}
+Field axes() {
+  return choice("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}).standard("xyz").doc("components held");
+}
+
+const Record<Fix> fix_record{
+    {{on()},
+     {axes()},
+     {vec3("displacement", "m")
+          .doc("total value to be held. A relaxation moves there in its first steps; a run moves there at a "
+               "steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
+      &Fix::displacement},
+     {vec3("velocity", "m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
+      &Fix::velocity},
+     {amplitude_field()},
+     {since_field()}}};
+
 Value fix(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("fix");
   const Amplitude amplitude = amplitude_of(a, model.time());
   if (amplitude && !a.has("velocity"))
     throw InputError("amplitude: goes with velocity, which it multiplies");
   for (const Selection& on : selections(model, a.value("on"), "on")) {
-    Fix fix;
+    Fix fix = fix_record.read(a);
     fix.on = on;
     fix.axes = axes_of(a.text("axes"));
-    fix.displacement = a.optional_vec3("displacement");
-    fix.velocity = a.optional_vec3("velocity");
     fix.amplitude = amplitude;
     model.simulation.fix(fix);
     note(model, "fix " + shown(on) + " in " + a.text("axes") +
@@ -59,16 +74,22 @@ Value release(Session&, ModelObject& model, const Arguments& a) {
   return {};
 }
 
+const Record<FacePressure> face_pressure{
+    {{number_or_function("pressure", "(x: number, y: number, z: number): number")
+          .unit("Pa")
+          .doc("instead: along the inward normal, the same everywhere or at each undeformed place"),
+      &FacePressure::pressure},
+     {number("level", "m")
+          .doc("instead: z of a free water surface; weight times the depth below it, none above. Water in "
+               "joints is model:water's"),
+      &FacePressure::level},
+     {object("water_table", "WaterTable").doc("instead: a free water surface that is not level")},
+     {water_weight_field("weight").doc("of the water"), &FacePressure::weight}}};
+
 FacePressure face_pressure_of(const Arguments& a) {
-  FacePressure pressure;
-  pressure.level = a.optional_number("level");
+  FacePressure pressure = face_pressure.read(a);
   if (const auto given = a.object<WaterTableObject>("water_table"))
     pressure.table = given->table;
-  pressure.weight = a.number("weight");
-  if (const Value& given = a.value("pressure"); given.is_number())
-    pressure.pressure = [p = given.number()](const geom::Vec3&) { return p; };
-  else if (a.has("pressure"))
-    pressure.pressure = number_at_place(a.function("pressure"), "pressure", "a finite number (Pa)");
   return pressure;
 }
 
@@ -127,13 +148,23 @@ bool pulls_up(const geom::Vec3& gravity) {
   return up > 0 && up >= gravity.cwiseAbs().maxCoeff();
 }
 
+Field gravity_vector() {
+  return vec3_or_function("vector", "(time: number): number[]")
+      .unit("m/s2")
+      .doubted(5e3, largest_quantity, "On Earth it is {0, 0, -9.81}")
+      .required()
+      .doc("acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it");
+}
+
 Value gravity(Session& session, ModelObject& model, const Arguments& a) {
   model.require_idle("gravity");
   Gravity gravity;
-  if (a.value("vector").reference())
-    gravity.turning = vector_over_time(a.function("vector"), "vector", model.time());
-  else
+  if (a.function("vector")) {
+    read(a, gravity_vector(), gravity.turning);
+    gravity.turning(model.time()); // so that a slip in it is an error of the line that gave it
+  } else {
     gravity.acceleration = a.vec3("vector");
+  }
   if (pulls_up(gravity.acceleration))
     session.warn("gravity: vector = " + describe(a.value("vector")) +
                  ": it pulls upwards; downwards is negative, {0, 0, -9.81}");
@@ -154,6 +185,20 @@ Value clear_loads(Session&, ModelObject& model, const Arguments&) {
   return {};
 }
 
+const Record<CrackPressure> crack_record{
+    {{place("on").standard("all").doc("where: a place or a list of places, by the centroids of faces")},
+     {number("pressure", "Pa").at_least(0)},
+     {number("volume", "m3").at_least(0).doc("instead: pumped in, in model:run")},
+     {number("bulk_modulus", "Pa")
+          .above(0)
+          .doc("of the fluid; water has 2.2e9")
+          .doubted(0, 1e4, "Water has 2.2e9, air 1e5"),
+      &CrackPressure::bulk_modulus},
+     {number("reservoir", "m3").above(0).doc("what the fluid fills beside the cracks, such as a borehole"),
+      &CrackPressure::reservoir},
+     {amplitude_field()},
+     {since_field()}}};
+
 Value crack_pressure(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("crack_pressure");
   const bool pumped = a.has("volume");
@@ -163,13 +208,11 @@ Value crack_pressure(Session&, ModelObject& model, const Arguments& a) {
     if (a.has(of_fluid) != pumped)
       throw InputError(std::string(of_fluid) + ": goes with volume, which gives the pressure by it");
   const std::string field = pumped ? "volume" : "pressure";
-  CrackPressure pressure;
+  CrackPressure pressure = crack_record.read(a);
   (pumped ? pressure.volume : pressure.pressure) = [value = a.number(field),
                                                     amplitude = amplitude_of(a, model.time())](double time) {
     return amplitude ? value * amplitude(time) : value;
   };
-  pressure.bulk_modulus = a.optional_number("bulk_modulus").value_or(0);
-  pressure.reservoir = a.optional_number("reservoir").value_or(0);
   for (const Selection& on : selections(model, a.value("on"), "on")) {
     pressure.on = on;
     model.simulation.crack_pressure(pressure);
@@ -217,10 +260,19 @@ Value act_on_places(const Session& session, ModelObject& model, const Arguments&
   return count;
 }
 
+const Record<Excavation> excavation_record{
+    {{number("relaxed").within(0, 1).standard().doc(
+          "share of the excavation's forces that goes, from the beginning (lambda of "
+          "convergence-confinement); the rest stays as a load"),
+      &Excavation::relaxed},
+     {number("over", "s")
+          .above(0)
+          .doc("time of model:run, from now on, in which this share goes evenly; at once when left out. A "
+               "relaxation takes no time"),
+      &Excavation::over}}};
+
 Excavation excavation_of(const Arguments& a) {
-  Excavation excavation;
-  excavation.relaxed = a.number("relaxed");
-  excavation.over = a.optional_number("over").value_or(0);
+  const Excavation excavation = excavation_record.read(a);
   if (excavation.relaxed == 0 && excavation.over > 0)
     throw InputError("over: goes with relaxed > 0, the share of the forces that falls in this time");
   return excavation;
@@ -284,25 +336,8 @@ Value unbond(Session& session, ModelObject& model, const Arguments& a) {
   return break_bonds(session, model, a);
 }
 
-Field on() {
-  return place("on").required().doc("where: a place or a list of places");
-}
 Field one_place() {
   return place("on").required().doc("where: one place");
-}
-Field relaxed() {
-  return number("relaxed").within(0, 1).standard(1.0).doc(
-      "share of the excavation's forces that goes, from the beginning (lambda of convergence-confinement); "
-      "the rest stays as a load");
-}
-Field over() {
-  return number("over", "s")
-      .above(0)
-      .doc("time of model:run, from now on, in which this share goes "
-           "evenly; at once when left out. A relaxation takes no time");
-}
-Field axes() {
-  return choice("axes", {"x", "y", "z", "xy", "xz", "yz", "xyz"}).standard("xyz").doc("components held");
 }
 } // namespace
 
@@ -311,13 +346,7 @@ void bind_conditions(Module& m) {
   model
       .add("fix",
            "Holds nodes, or moves them as told. A later call wins over an earlier one where they meet.",
-           {on(), axes(),
-            vec3("displacement", "m")
-                .doc("total value to be held. A relaxation moves there in its first steps; a run moves there "
-                     "at a steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
-            vec3("velocity", "m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
-            amplitude_field(), since_field()},
-           fix)
+           fix_record.fields(), fix)
       .replayed(Replay::again);
   model.add("release", "Undoes fixes.", {on(), axes().doc("components set free")}, release)
       .replayed(Replay::again);
@@ -326,15 +355,8 @@ void bind_conditions(Module& m) {
            "Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, "
            "such as that of a reservoir. It acts on faces that are free as the stage begins and does not "
            "follow them. Several tractions on a face add up.",
-           {on(), vec3("stress", "Pa").doc("force over area"),
-            number_or_function("pressure", "(x: number, y: number, z: number): number")
-                .unit("Pa")
-                .doc("instead: along the inward normal, the same everywhere or at each undeformed place"),
-            number("level", "m")
-                .doc("instead: z of a free water surface; weight times the depth below "
-                     "it, none above. Water in joints is model:water's"),
-            object("water_table", "WaterTable").doc("instead: a free water surface that is not level"),
-            water_weight_field("weight").doc("of the water"), amplitude_field(), since_field()},
+           std::vector<Field>{on(), vec3("stress", "Pa").doc("force over area")} + face_pressure.fields() +
+               std::vector<Field>{amplitude_field(), since_field()},
            traction)
       .replayed(Replay::again);
   model
@@ -343,11 +365,7 @@ void bind_conditions(Module& m) {
       .replayed(Replay::again);
   model
       .add("gravity", "Weight of all blocks; one at a time, the last call counts.",
-           {vec3_or_function("vector", "(time: number): number[]")
-                .unit("m/s2")
-                .doubted(5e3, largest_quantity, "On Earth it is {0, 0, -9.81}")
-                .required()
-                .doc("acceleration, e.g. {0, 0, -9.81}, or a function of time (s) that gives it"),
+           {gravity_vector(),
             water_density_field("water_density")
                 .at_least(0)
                 .standard(0.0)
@@ -361,18 +379,7 @@ void bind_conditions(Module& m) {
            "open. The pressure is given, or it is that of a fluid which fills the cracks and a reservoir: "
            "bulk_modulus (pumped volume - volume of the cracks) / reservoir. It is the same in all cracks of "
            "the place (docs/theory.md, section 22). Several pressures in a crack add up.",
-           {place("on").standard("all").doc("where: a place or a list of places, by the centroids of faces"),
-            number("pressure", "Pa").at_least(0),
-            number("volume", "m3").at_least(0).doc("instead: pumped in, in model:run"),
-            number("bulk_modulus", "Pa")
-                .above(0)
-                .doc("of the fluid; water has 2.2e9")
-                .doubted(0, 1e4, "Water has 2.2e9, air 1e5"),
-            number("reservoir", "m3")
-                .above(0)
-                .doc("what the fluid fills beside the cracks, such as a borehole"),
-            amplitude_field(), since_field()},
-           crack_pressure)
+           crack_record.fields(), crack_pressure)
       .replayed(Replay::again);
   model
       .add("clear_loads", "Takes away tractions, forces, gravity, flows and pressures in cracks.", {},
@@ -392,11 +399,11 @@ void bind_conditions(Module& m) {
             "Takes blocks and whole meshes out of the model (an excavation): those whose undeformed centroid "
             "is selected. Their forces on the rock that stays go at once, unless `relaxed` and `over` say "
             "otherwise (docs/settling-and-loading.md, \"Excavating\").",
-            {on(), relaxed(), over()}, remove, "integer", "how many");
+            std::vector<Field>{on()} + excavation_record.fields(), remove, "integer", "how many");
   model.add("relax_excavation",
             "Lets go of forces that earlier calls of model:remove have kept with `relaxed` or `over`, for "
             "instance after a lining is set. Forces that are relaxed further already stay so.",
-            {relaxed(), over()}, relax_excavation);
+            excavation_record.fields(), relax_excavation);
   model.add("make_rigid",
             "Makes the meshed bodies rigid whose undeformed centroid is selected: they keep the shape and "
             "the stress of this moment, and move as a whole.",

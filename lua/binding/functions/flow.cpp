@@ -1,5 +1,4 @@
 // Flow on outer faces, pieces, and the search for the flow that breaks a solid (Feng 2014 section 3).
-#include "lua/binding/functions/answers.hpp"
 #include "lua/binding/functions/mass_scaling.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/functions/solving_stage.hpp"
@@ -9,22 +8,13 @@
 
 #include "libgeom/core/error.hpp"
 
+#include <algorithm>
+
 namespace cdem::script {
 
 namespace {
 
 using geom::InputError;
-
-std::function<double(double)> velocity_of(const Arguments& a, double now) {
-  if (const Value& given = a.value("velocity"); given.is_number())
-    return [v = given.number()](double) { return v; };
-  const auto function = a.function("velocity");
-  auto velocity = [function](double time) {
-    return number_answered(*function, "velocity", {time}, "a finite number >= 0 m/s", 0);
-  };
-  velocity(now); // so that a slip in it is an error of the line that gave it
-  return velocity;
-}
 
 Field water_density() {
   return water_density_field("water_density").standard(Flow().water_density).doc("sea water by default");
@@ -35,6 +25,31 @@ const Record<Flow> stream{
      {place("on").standard(std::string("all")).doc("outer faces that may take it: one place")},
      {water_density(), &Flow::water_density},
      {flag("new_faces").standard().doc("faces opened by cracks take the pressure too"), &Flow::new_faces}}};
+
+// What a flow has that is not searched for.
+const Record<Flow> steady{
+    {{number_or_function("velocity", "(time: number): number").at_least(0).unit("m/s"), &Flow::velocity},
+     {object("water", "Water")
+          .doc("a field of water in place of direction, velocity and density: drag, pressure and with it "
+               "buoyancy on the wet part of each face, and added mass, as far as the field knows them")},
+     {number("drag").within(0, 100).standard().doc(
+          "C_D; scales the traction, which by itself gives a convex body C_D = 1 of its silhouette"),
+      &Flow::drag},
+     {number("added_mass")
+          .within(0, 100)
+          .standard()
+          .doc("C_A = C_M - 1, of the volume under water: sphere 0.5, cylinder across the stream 1, cube "
+               "0.67"),
+      &Flow::added_mass},
+     {flag("relative")
+          .standard()
+          .doc("in a run the water meets each point of the surface at its velocity less that of the surface, "
+               "u, "
+               "and the traction is rho/2 (u . n)+ u: a unit that the flow carries gains on it no more, and "
+               "one "
+               "that moves in still water is slowed down. false: the pressure of the flow alone, however the "
+               "surface moves"),
+      &Flow::relative}}};
 
 Flow flow_of(const ModelObject& model, const Arguments& a) {
   Flow flow = stream.read(a);
@@ -49,13 +64,11 @@ Flow flow_of_water(const ModelObject& model, const Arguments& a) {
   if (!a.flag("relative"))
     throw InputError("relative", "false", "left out beside water",
                      "drag depends on the motion of the surface");
-  Flow flow;
+  Flow flow = steady.read(a);
   const std::vector<Selection> places = selections(model, a.value("on"), "on");
   flow.on = places.front();
   flow.also.assign(places.begin() + 1, places.end());
   flow.water = a.object<WaterObject>("water")->field;
-  flow.drag = a.number("drag");
-  flow.added_mass = a.number("added_mass");
   flow.new_faces = true; // a piece floats by all its faces
   return flow;
 }
@@ -65,10 +78,9 @@ Flow flow_of_stream(const ModelObject& model, const Arguments& a) {
     if (!a.has(own))
       throw InputError(std::string(own) + ": give it, or water = a field of cdem.water");
   Flow flow = flow_of(model, a);
-  flow.velocity = velocity_of(a, model.time());
-  flow.relative = a.flag("relative");
-  flow.drag = 1;
-  if (a.number("drag") != 1 || a.number("added_mass") != 0)
+  steady.read(a, flow);
+  flow.velocity(model.time()); // so that a slip in it is an error of the line that gave it
+  if (flow.drag != 1 || flow.added_mass != 0)
     throw InputError("drag and added_mass: go with water = a field, such as cdem.water.uniform");
   return flow;
 }
@@ -222,35 +234,18 @@ void bind_flow(Module& m) {
         {number("pressure", "Pa").at_least(0).required(), water_density()}, velocity, "number")
       .ordered();
   Class& model = m.the_class("Model");
-  std::vector<Field> steady = stream.fields();
-  steady[0] = vec3("direction").doc("of the flow; made a unit vector");
-  steady[1].doc("outer faces that may take it: one place; of water: a place or a list of places");
-  steady[3].doc("faces opened by cracks take the pressure too; always with water");
-  steady.insert(steady.begin() + 1,
-                number_or_function("velocity", "(time: number): number").at_least(0).unit("m/s"));
-  steady.push_back(
-      object("water", "Water")
-          .doc("a field of water in place of direction, velocity and density: drag, pressure and with it "
-               "buoyancy on the wet part of each face, and added mass, as far as the field knows them"));
-  steady.push_back(number("drag").within(0, 100).standard(1.0).doc(
-      "C_D; scales the traction, which by itself gives a convex body C_D = 1 of its silhouette"));
-  steady.push_back(number("added_mass")
-                       .within(0, 100)
-                       .standard(0.0)
-                       .doc("C_A = C_M - 1, of the volume under water: sphere 0.5, cylinder across the "
-                            "stream 1, cube 0.67"));
-  steady.push_back(flag("relative")
-                       .standard(true)
-                       .doc("in a run the water meets each point of the surface at its velocity less that of "
-                            "the surface, u, and the traction is rho/2 (u . n)+ u: a unit that the flow "
-                            "carries gains on it no more, and one that moves in still water is slowed down. "
-                            "false: the pressure of the flow alone, however the surface moves"));
+  std::vector<Field> fields = stream.fields() + steady.fields();
+  std::rotate(fields.begin() + 1, fields.begin() + 4,
+              fields.begin() + 5); // the velocity beside the direction
+  fields[0].must = false;          // water has its own
+  fields[2].doc("outer faces that may take it: one place; of water: a place or a list of places");
+  fields[4].doc("faces opened by cracks take the pressure too; always with water");
   model
       .add("flow",
            "Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha "
            "F along the flow, alpha the cosine to the inward normal (Feng 2014 eqs 19-20), on a surface at "
            "rest. With water = a field, the forces of waves. Shielding is not modelled.",
-           steady, flow)
+           fields, flow)
       .replayed(Replay::again);
   model.add("critical_flow",
             "Raises a flow from 1 m/s until a held solid breaks: a piece of it comes off, or it has become "

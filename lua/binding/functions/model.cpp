@@ -4,6 +4,7 @@
 #include "lua/binding/module/module.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/objects/solid_objects.hpp"
+#include "lua/binding/schema/answers.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/text/nearest.hpp"
 
@@ -80,13 +81,12 @@ void read_joint(const Value& given, const std::string& path, const BodySpec& bod
     return;
   }
   at = [function = given.reference(), path](const geom::Vec3& x) {
-    const Values answer = function->call({x.x(), x.y(), x.z()});
-    const auto law = answer.empty() ? nullptr : std::dynamic_pointer_cast<JointObject>(answer[0].object());
-    if (!law)
-      throw InputError(path + place_text(x) + " of " + function->place(),
-                       answer.empty() ? "nothing" : describe(answer[0]),
-                       "a Joint: cdem.mohr_coulomb{...}, cdem.coulomb{...} or another law of joints");
-    return law->joint;
+    const Values place{x.x(), x.y(), x.z()};
+    const Value answer = answer_of(*function, path, place);
+    if (const auto law = std::dynamic_pointer_cast<JointObject>(answer.object()))
+      return law->joint;
+    refuse_answer(*function, path, place, answer,
+                  "a Joint: cdem.mohr_coulomb{...}, cdem.coulomb{...} or another law of joints");
   };
   joint = at(geom::bounding_box(body.shape).centre());
 }

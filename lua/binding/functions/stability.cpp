@@ -91,11 +91,7 @@ Value factor_of_safety(Session& session, Object*, const Arguments& a) {
         model->simulation.copy(); // tells of strengths that there are not before anything is solved
     tried.reduce_strength(1, kinds_of(a));
   }
-  Table given;
-  for (const char* const name : {"model", "builder", "reduce", "lower", "upper", "tolerance", "residual",
-                                 "max_steps", "smallest", "picture", "figure"})
-    if (a.has(name))
-      given.named[name] = a.value(name);
+  Table given = a.table();
   given.named.emplace("smallest", 0.0);
   return given;
 }

@@ -1,7 +1,7 @@
 // cdem.sweep: one script with many settings, as processes side by side.
 #include "lua/binding/files/process_pool.hpp"
 #include "lua/binding/files/sources.hpp"
-#include "lua/binding/module/module.hpp"
+#include "lua/binding/module/record.hpp"
 #include "lua/binding/session/session.hpp"
 
 #include "libcdem/step/errors.hpp"
@@ -116,28 +116,46 @@ void warn_of_failure(Session& session, const std::vector<Case>& cases, std::size
   session.warn(what + code + (error.empty() ? "" : ": " + error) + "; its figures are empty");
 }
 
-Value result_of(Session& session, const Case& one, const Job& job, const fs::path& folder) {
+Table figures_of(const fs::path& report) {
   Table figures;
+  const Value all = read_report(read_file(report), report.string());
+  const auto list =
+      all.table() ? all.table()->named.find("figures") : std::map<std::string, Value>::const_iterator();
+  if (all.table() && list != all.table()->named.end() && list->second.table())
+    for (const Value& figure : list->second.table()->items) {
+      const auto& named = figure.table()->named;
+      if (named.count("name") && named.count("value"))
+        figures.named[*named.at("name").get<std::string>()] = named.at("value");
+    }
+  return figures;
+}
+
+struct SweepResult {
+  Value set;
+  std::string output; // in the output folder
+  int exit_code;
+  double seconds;
+  Value figures;
+};
+
+const Record<SweepResult> sweep_result{
+    "SweepResult",
+    "What one case of a sweep came to.",
+    {{plain("set").required().doc("as given"), &SweepResult::set},
+     {text("output").doc("its folder, in the output folder"), &SweepResult::output},
+     {integer("exit_code").doc("0 when it succeeded"), &SweepResult::exit_code},
+     {number("seconds", "s").doc("wall clock; 0 for a run that had ended before its sweep was stopped"),
+      &SweepResult::seconds},
+     {plain("figures").required().doc("values of its report by name; empty when it failed, and in a check"),
+      &SweepResult::figures}}};
+
+SweepResult result_of(Session& session, const Case& one, const Job& job, const fs::path& folder) {
   const fs::path report = folder / "report.json";
   std::error_code error;
   // A check writes none: what lies there is of an earlier run.
-  if (!session.settings.check_only && job.exit_code == 0 && fs::exists(report, error)) {
-    const Value all = read_report(read_file(report), report.string());
-    const auto list =
-        all.table() ? all.table()->named.find("figures") : std::map<std::string, Value>::const_iterator();
-    if (all.table() && list != all.table()->named.end() && list->second.table())
-      for (const Value& figure : list->second.table()->items) {
-        const auto& named = figure.table()->named;
-        if (named.count("name") && named.count("value"))
-          figures.named[*named.at("name").get<std::string>()] = named.at("value");
-      }
-  }
-  Table row{{"set", one.set},
-            {"output", folder.lexically_relative(session.files.output()).string()},
-            {"exit_code", job.exit_code},
-            {"seconds", job.seconds},
-            {"figures", figures}};
-  return row;
+  const bool reported = !session.settings.check_only && job.exit_code == 0 && fs::exists(report, error);
+  return {one.set, folder.lexically_relative(session.files.output()).string(), job.exit_code, job.seconds,
+          reported ? figures_of(report) : Table()};
 }
 
 const char* const log_name = "cdem.log";
@@ -291,25 +309,16 @@ Value sweep(Session& session, Object*, const Arguments& a) {
   }
 
   session.checkpoints.keep_call();
-  Values results;
+  std::vector<SweepResult> results;
   for (std::size_t i = 0; i < jobs.size(); ++i)
     results.push_back(result_of(session, cases[i], jobs[i], session.files.output() / cases[i].name));
-  return Table::list(std::move(results));
+  return sweep_result.list(results);
 }
 
 } // namespace
 
 void bind_sweep(Module& m) {
-  m.records.push_back({"SweepResult",
-                       "What one case of a sweep came to.",
-                       {plain("set").required().doc("as given"),
-                        text("output").required().doc("its folder, in the output folder"),
-                        integer("exit_code").required().doc("0 when it succeeded"),
-                        number("seconds", "s")
-                            .required()
-                            .doc("wall clock; 0 for a run that had ended before its sweep was stopped"),
-                        plain("figures").required().doc(
-                            "values of its report by name; empty when it failed, and in a check")}});
+  m.records.push_back(sweep_result);
   m.add("sweep",
         "Runs a script with many settings, as processes side by side. Each has its own folder in the output "
         "folder. All of them run the script, and the files that it requires by a name in quotes, as they are "

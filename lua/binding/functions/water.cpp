@@ -1,5 +1,4 @@
 // Water in joints.
-#include "lua/binding/functions/over_place.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/water_object.hpp"
@@ -16,17 +15,26 @@ namespace {
 
 using geom::InputError;
 
-std::function<double(const geom::Vec3&)> pressure_of(const Arguments& a) {
-  if (const Value& given = a.value("pressure"); given.is_number())
-    return [p = given.number()](const geom::Vec3&) { return p; };
-  return number_at_place(a.function("pressure"), "pressure", "a finite number >= 0 Pa", 0);
-}
+const Record<Water> water_record{
+    {{number("level", "m").doc("z of a level water table: weight times the depth below it"), &Water::level},
+     {object("water_table", "WaterTable")
+          .doc("instead: one that is not level; weight times the vertical depth below it")},
+     {number_or_function("pressure", "(x: number, y: number, z: number): number")
+          .at_least(0)
+          .unit("Pa")
+          .doc("instead: the same everywhere, or at each place; 0 takes the water away"),
+      &Water::pressure},
+     {list("table", tuple_type({number_type(), number_type()}), 2)
+          .doc("instead: rows {z (m), pressure (Pa)}, upwards; straight between them, constant beyond")},
+     {list("joints", text_type(), 1)
+          .doc("names of joint sets and cuts that hold it; all joints when left out, glued cuts never"),
+      &Water::sets},
+     {place("on").standard("all").doc("where: one place; joints elsewhere keep what they have")},
+     {water_weight_field("weight").doc("of the water"), &Water::weight}}};
 
 Water water_of(const ModelObject& model, const Arguments& a, std::string& line) {
-  Water water;
+  Water water = water_record.read(a);
   water.on = one_selection(model, a.value("on"), "on");
-  water.weight = a.number("weight");
-  water.sets = a.texts("joints");
   if (static_cast<int>(a.has("level")) + static_cast<int>(a.has("water_table")) +
           static_cast<int>(a.has("pressure")) + static_cast<int>(a.has("table")) !=
       1)
@@ -36,7 +44,6 @@ Water water_of(const ModelObject& model, const Arguments& a, std::string& line) 
         "and table = rows {z, pressure}");
   line = "water in joints";
   if (a.has("level")) {
-    water.level = a.number("level");
     line += " up to z = " + describe(a.value("level")) + " m";
   } else if (const auto given = a.object<WaterTableObject>("water_table")) {
     water.table = given->table;
@@ -48,7 +55,6 @@ Water water_of(const ModelObject& model, const Arguments& a, std::string& line) 
     water.pressure = pressure_over_height(std::move(rows));
     line += " after a table";
   } else {
-    water.pressure = pressure_of(a);
     line += a.value("pressure").is_number() ? " at " + describe(a.value("pressure")) + " Pa"
                                             : std::string(" after a function");
   }
@@ -89,20 +95,7 @@ void bind_water(Module& m) {
            "closed, and the joint's law bears the rest, the effective stress. It is taken at the undeformed "
            "places, once, and stays until it is set again; call it between stages to raise or lower the "
            "water.",
-           {number("level", "m").doc("z of a level water table: weight times the depth below it"),
-            object("water_table", "WaterTable")
-                .doc("instead: one that is not level; weight times the vertical depth below it"),
-            number_or_function("pressure", "(x: number, y: number, z: number): number")
-                .at_least(0)
-                .unit("Pa")
-                .doc("instead: the same everywhere, or at each place; 0 takes the water away"),
-            list("table", tuple_type({number_type(), number_type()}), 2)
-                .doc("instead: rows {z (m), pressure (Pa)}, upwards; straight between them, constant beyond"),
-            list("joints", text_type(), 1)
-                .doc("names of joint sets and cuts that hold it; all joints when left out, glued cuts never"),
-            place("on").standard("all").doc("where: one place; joints elsewhere keep what they have"),
-            water_weight_field("weight").doc("of the water")},
-           water, "cdem.WaterInJoints")
+           water_record.fields(), water, "cdem.WaterInJoints")
       .replayed(Replay::again);
 }
 

@@ -1,6 +1,4 @@
 // cdem.water.*: fields of water that loads take.
-#include "lua/binding/functions/answers.hpp"
-#include "lua/binding/functions/over_time.hpp"
 #include "lua/binding/functions/physical_fields.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/water_object.hpp"
@@ -116,42 +114,37 @@ const Record<WaterArrays> water_arrays{
           .doc("the water is the same all along this axis, as in a flume of one cell")},
      {vec3("shift", "m").standard().doc("is added to the coordinates"), &WaterArrays::shift}}};
 
-Value uniform(Session&, Object*, const Arguments& a) {
-  UniformWater water;
-  if (const auto function = a.function("velocity"))
-    water.velocity = vector_over_time(function, "velocity", 0); // a field belongs to no model yet
-  else
-    water.velocity = [v = a.vec3("velocity")](double) { return v; };
-  water.level = a.optional_number("level");
-  water.density = a.number("density");
-  return holding(uniform_water(water), "water of one velocity");
+const Record<UniformWater> uniform_record{
+    {{vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
+      &UniformWater::velocity},
+     {number("level", "m")
+          .doc("z of the free surface, below which the pressure is hydrostatic; left out: water everywhere, "
+               "no buoyancy"),
+      &UniformWater::level},
+     {density_of_water(), &UniformWater::density}}};
+
+const char* const in_water = "(x: number, y: number, z: number, time: number): number";
+
+const Record<FunctionWater> function_record{
+    {{function("velocity", std::string(in_water) + "[]").unit("m/s").required(), &FunctionWater::velocity},
+     {function("acceleration", std::string(in_water) + "[]").unit("m/s2"), &FunctionWater::acceleration},
+     {function("pressure", in_water).unit("Pa").doc("that of the motion included"), &FunctionWater::pressure},
+     {function("surface", in_water).unit("m").doc("z of the free surface; water everywhere when left out"),
+      &FunctionWater::surface},
+     {density_of_water(), &FunctionWater::density}}};
+
+// A slip in its functions is an error of the line that gave them; a field belongs to no model and no time yet.
+Value tried(std::shared_ptr<WaterObject> object) {
+  object->field->at(geom::Vec3::Zero(), 0);
+  return object;
 }
 
-// In x, y, z and time; none where the script gives none.
-template <class Answer>
-auto in_water(const Arguments& a, const std::string& field, const Answer& answer) {
-  using Given = decltype(answer(std::declval<const Reference&>(), field, Values()));
-  std::function<Given(const geom::Vec3&, double)> found;
-  if (const auto f = a.function(field))
-    found = [f, field, answer](const geom::Vec3& x, double t) {
-      return answer(*f, field, {x.x(), x.y(), x.z(), t});
-    };
-  return found;
+Value uniform(Session&, Object*, const Arguments& a) {
+  return tried(holding(uniform_water(uniform_record.read(a)), "water of one velocity"));
 }
 
 Value field(Session&, Object*, const Arguments& a) {
-  FunctionWater water;
-  const auto number = [](const Reference& f, const std::string& field, const Values& at) {
-    return number_answered(f, field, at);
-  };
-  water.velocity = in_water(a, "velocity", vector_answered);
-  water.acceleration = in_water(a, "acceleration", vector_answered);
-  water.pressure = in_water(a, "pressure", number);
-  water.surface = in_water(a, "surface", number);
-  water.density = a.number("density");
-  auto object = holding(function_water(water), "water of functions");
-  object->field->at(geom::Vec3::Zero(), 0); // so that a slip in them is an error of the line that gave them
-  return object;
+  return tried(holding(function_water(function_record.read(a)), "water of functions"));
 }
 
 Value wave(Session&, Object*, const Arguments& a) {
@@ -180,10 +173,7 @@ std::function<double(double)> entering(const Arguments& a, const SlopeGiven& slo
     if (!std::isfinite(height(0)))
       throw InputError("waves", "water without a free surface there", "waves of the same level");
   } else {
-    const auto function = a.function("waves");
-    height = [function](double time) {
-      return number_answered(*function, "waves", {time}, "a finite height over still water (m)");
-    };
+    read(a, number("waves", "m"), height);
   }
   const double ramp = a.number("ramp");
   return [height, ramp](double time) {
@@ -295,28 +285,17 @@ void bind_water_class(Module& m) {
 
 void bind_water_fields(Module& m) {
   bind_water_class(m);
-  m.add("water.uniform", "Water of one velocity everywhere below its level.",
-        {vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
-         number("level", "m")
-             .doc("z of the free surface, below which the pressure is hydrostatic; left "
-                  "out: water everywhere, no buoyancy"),
-         density_of_water()},
+  m.add("water.uniform", "Water of one velocity everywhere below its level.", uniform_record.fields(),
         uniform, "cdem.Water");
-  const std::string of_vector = "(x: number, y: number, z: number, time: number): number[]",
-                    of_number = "(x: number, y: number, z: number, time: number): number";
   m.add(
       "water.field",
       "Water described by functions of place and time, which are called at every node of a unit. Without a "
       "function for the pressure, the pressure is hydrostatic below the surface. Without a function for the "
       "acceleration, the acceleration follows from the velocity.",
-      {function("velocity", of_vector).unit("m/s").required(),
-       function("acceleration", of_vector).unit("m/s2"),
-       function("pressure", of_number).unit("Pa").doc("that of the motion included"),
-       function("surface", of_number).unit("m").doc("z of the free surface; water everywhere when left out"),
-       density_of_water()},
-      field, "cdem.Water");
+      function_record.fields(), field, "cdem.Water");
   m.add("water.wave",
-        "A regular wave over a flat bed that keeps its shape. stream_function: order N, any depth (Rienecker "
+        "A regular wave that keeps its shape, over a flat bed at z = level - depth. stream_function: order "
+        "N, any depth (Rienecker "
         "and Fenton 1981); stokes: fifth order (Fenton 1985), for waves that are not long; airy: small "
         "waves. A wave higher than the breaking limit is refused.",
         wave_given.fields(), wave, "cdem.Water");

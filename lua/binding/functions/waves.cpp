@@ -121,9 +121,8 @@ const Unit& unit_of(const std::string& name) {
 }
 
 // An acceleration becomes a velocity. Tells what the baseline took off, and where the motion ends.
-TimeTable integrated(Session& session, const std::string& head, const TimeTable& table,
-                     const std::string& baseline, Table& result) {
-  const VelocityRecord r = integrate(table, baseline == "straight");
+void to_velocity(Session& session, const std::string& head, const std::string& baseline, Recorded& record) {
+  const VelocityRecord r = integrate(record, baseline == "straight");
   std::string line = head + " integrated to velocity, peak " + three_digits(peak(r.velocity)) +
                      " m/s; at its end " + three_digits(r.raw_end_velocity) + " m/s and " +
                      three_digits(r.raw_end_displacement) + " m";
@@ -132,10 +131,10 @@ TimeTable integrated(Session& session, const std::string& head, const TimeTable&
             three_digits(r.baseline.slope) + " m/s3 t taken off brings both to " +
             three_digits(r.end_velocity) + " m/s and " + three_digits(r.end_displacement) + " m";
   session.message(line);
-  result.named["end_velocity"] = r.end_velocity;
-  result.named["end_displacement"] = r.end_displacement;
-  result.named["baseline"] = Table::list({r.baseline.constant, r.baseline.slope});
-  return r.velocity;
+  static_cast<TimeTable&>(record) = r.velocity;
+  record.end_velocity = r.end_velocity;
+  record.end_displacement = r.end_displacement;
+  record.baseline = {r.baseline.constant, r.baseline.slope};
 }
 
 Value read_record(Session& session, Object*, const Arguments& a) {
@@ -144,52 +143,55 @@ Value read_record(Session& session, Object*, const Arguments& a) {
   const std::string text = read_file(path);
   const bool peer = path.extension() == ".AT2" || path.extension() == ".at2";
   std::vector<int> lines;
-  TimeTable table = peer ? peer_record(file, text) : table_record(file, text, a, lines);
+  Recorded record{peer ? peer_record(file, text) : table_record(file, text, a, lines)};
   if (peer && a.has("value"))
     throw InputError("value", describe(a.value("value")), "left out", "a file .AT2 has no columns");
-  table.zero_outside = true;
+  record.zero_outside = true;
   try {
-    validate(table);
-    require_no_gaps(table, a.optional_number("longest_step").value_or(0), lines);
+    validate(record);
+    require_no_gaps(record, a.optional_number("longest_step").value_or(0), lines);
   } catch (const InputError& e) {
     throw InputError("record \"" + file + "\": " + e.what());
   }
   const Unit& unit = unit_of(a.text("unit"));
-  for (double& value : table.value)
+  for (double& value : record.value)
     value *= a.number("scale") * unit.factor;
-  const bool acceleration = std::string(unit.si) == "m/s2", to_velocity = a.text_or("to", "") == "velocity";
-  if (to_velocity && !acceleration)
+  const bool acceleration = std::string(unit.si) == "m/s2", integrates = a.has("to");
+  if (integrates && !acceleration)
     throw InputError("to", "\"velocity\"", "left out",
                      "only an acceleration (unit \"m/s2\", \"cm/s2\", \"g\") is "
                      "integrated, and this is in " +
                          std::string(unit.name));
-  if (a.text("baseline") != "none" && !to_velocity)
+  if (a.text("baseline") != "none" && !integrates)
     throw InputError("baseline: goes with to = \"velocity\"");
-  const double first = table.time.front();
-  const std::string head = "record \"" + file + "\": " + std::to_string(table.time.size()) +
-                           " samples from " + three_digits(first) + " to " + three_digits(table.time.back()) +
-                           " s, peak " + three_digits(peak(table)) + " " + unit.si + ";";
-  Table result;
-  if (to_velocity)
-    table = integrated(session, head, table, a.text("baseline"), result);
+  const double first = record.time.front(), last = record.time.back();
+  const std::string head = "record \"" + file + "\": " + std::to_string(record.time.size()) +
+                           " samples from " + three_digits(first) + " to " + three_digits(last) +
+                           " s, peak " + three_digits(peak(record)) + " " + unit.si + ";";
+  if (integrates)
+    to_velocity(session, head, a.text("baseline"), record);
   else
     session.message(head.substr(0, head.size() - 1));
-  result.named["peak"] = peak(table);
-  result.named["duration"] = table.time.back() - first;
-  result.named["unit"] = to_velocity ? "m/s" : unit.si;
-  result.named["outside"] = "zero";
-  result.named["times"] = Table::list(Values(table.time.begin(), table.time.end()));
-  result.named["values"] = Table::list(Values(table.value.begin(), table.value.end()));
-  return result;
+  record.peak = peak(record);
+  record.duration = last - first;
+  record.unit = integrates ? "m/s" : unit.si;
+  return recorded()(record);
 }
+
+const Record<Quiet> quiet_record{
+    {{place("on").required().doc("where: a place or a list of places")},
+     {vec3("velocity", "m/s").doc("of the particles in the entering wave alone"), &Quiet::velocity},
+     {vec3("stress", "Pa")
+          .doc("traction of the entering wave alone on these faces; the boundary adds 2 of it"),
+      &Quiet::stress},
+     {amplitude_field()},
+     {since_field()}}};
 
 Value quiet(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("quiet");
   if (a.has("velocity") && a.has("stress"))
     throw InputError("velocity and stress: give one of them; a stress wave has 'rho c' times its velocity");
-  Quiet quiet;
-  quiet.velocity = a.optional_vec3("velocity").value_or(geom::Vec3::Zero());
-  quiet.stress = a.optional_vec3("stress").value_or(geom::Vec3::Zero());
+  Quiet quiet = quiet_record.read(a);
   quiet.amplitude = amplitude_of(a, model.time());
   if (quiet.amplitude && !a.has("velocity") && !a.has("stress"))
     throw InputError("amplitude: goes with velocity or stress, which it multiplies");
@@ -217,17 +219,7 @@ Value free_field(Session&, ModelObject& model, const Arguments& a) {
 } // namespace
 
 void bind_waves(Module& m) {
-  m.records.push_back(
-      {"Record",
-       "A quantity over time, from a file or of your own; what an amplitude takes.",
-       {list("times", number_type(), 2).required().doc("s, ascending"),
-        list("values", number_type(), 2).required().doc("as many"),
-        choice("outside", {"hold", "zero"})
-            .standard("hold")
-            .doc("before the first and after the last time: those values, or 0"),
-        number("peak").doc("largest magnitude"), number("duration", "s"), text("unit"),
-        number("end_velocity", "m/s").doc("of an integrated acceleration"), number("end_displacement", "m"),
-        list("baseline", number_type(), 2).doc("{a0, a1}: a0 + a1 t has been taken off, m/s2 and m/s3")}});
+  m.records.push_back(recorded());
   m.add("record",
         "Reads a record over time from two columns of a table as spreadsheets write it, or from a file .AT2 "
         "of the PEER data base (unit = \"g\"), in SI units from then on; outside its times it is 0. Times "
@@ -253,17 +245,12 @@ void bind_waves(Module& m) {
         read_record, "cdem.Record")
       .replayed(Replay::recorded);
   Class& model = m.the_class("Model");
-  const Field on = place("on").required().doc("where: a place or a list of places");
   model
       .add("quiet",
            "Quiet boundary (Lysmer and Kuhlemeyer 1969): dashpots on outer faces let waves out, and a wave "
            "may enter through them. It takes the place of a fix of the same place, whose reactions stay as "
            "loads. For real-time stepping.",
-           {on, vec3("velocity", "m/s").doc("of the particles in the entering wave alone"),
-            vec3("stress", "Pa")
-                .doc("traction of the entering wave alone on these faces; the boundary adds 2 of it"),
-            amplitude_field(), since_field()},
-           quiet)
+           quiet_record.fields(), quiet)
       .replayed(Replay::again);
   model
       .add("free_field",

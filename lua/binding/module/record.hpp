@@ -109,7 +109,9 @@ public:
     RecordType type{name_, doc_, {}};
     for (const Entry& entry : entries_) {
       type.fields.push_back(entry.field);
-      type.fields.back().must = entry.field.must || (entry.value && entry.always);
+      // with a default that is not the struct's a table of the user's may lack it
+      const bool left_out = !entry.field.own_standard && !entry.field.standard_value.is_nil();
+      type.fields.back().must = entry.field.must || (entry.value && entry.always && !left_out);
     }
     return type;
   }

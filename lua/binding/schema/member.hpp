@@ -1,12 +1,14 @@
 // Members of structs as scripts give and get them: read() and shown() by the type of the member. Angles are in degrees in
-// scripts and in radians inside; an enumerator is the choice at its place.
+// scripts and in radians inside; an enumerator is the choice at its place, and so is a flag with two choices. A function
+// is one of the script, or the number or vector that the script gives instead.
 #pragma once
 
 #include "lua/binding/schema/angles.hpp"
-#include "lua/binding/schema/schema.hpp"
+#include "lua/binding/schema/answers.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <type_traits>
 
 namespace cdem::script {
@@ -16,16 +18,59 @@ inline constexpr bool is_optional = false;
 template <class T>
 inline constexpr bool is_optional<std::optional<T>> = true;
 
+template <class T>
+inline constexpr bool is_function = false;
+template <class T>
+inline constexpr bool is_function<std::function<T>> = true;
+
 template <class M>
 Value shown(const M& x, const Field& field) {
   if constexpr (is_optional<M>)
     return x ? shown(*x, field) : Value();
+  else if constexpr (is_function<M>)
+    return {}; // that scripts give alone
   else if constexpr (std::is_enum_v<M>)
     return field.type.choices.at(static_cast<std::size_t>(x));
+  else if constexpr (std::is_same_v<M, bool>)
+    return field.type.choices.empty() ? Value(x) : Value(field.type.choices.at(x));
   else if constexpr (std::is_same_v<M, double>)
     return field.radians_inside ? degrees(x) : x;
   else
     return as_value(x);
+}
+
+inline std::size_t choice_index(const Arguments& a, const Field& field) {
+  const std::vector<std::string>& all = field.type.choices;
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), a.text(field.name)) - all.begin());
+}
+
+template <class M>
+void read(const Arguments& a, const Field& field, M& x);
+
+// in: places, and numbers.
+template <class R, class... In>
+void read(const Arguments& a, const Field& field, std::function<R(In...)>& x) {
+  const auto function = a.function(field.name);
+  if (function) {
+    x = [function, field](In... in) {
+      Values arguments;
+      const auto add = [&](const auto& one) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(one)>, double>)
+          arguments.emplace_back(one);
+        else
+          arguments.insert(arguments.end(), {one.x(), one.y(), one.z()});
+      };
+      (add(in), ...);
+      if constexpr (std::is_same_v<R, double>)
+        return number_answered(*function, field, arguments);
+      else
+        return vector_answered(*function, field, arguments);
+    };
+  } else if (a.has(field.name)) {
+    R constant;
+    read(a, field, constant);
+    x = [constant](In...) { return constant; };
+  }
 }
 
 // A member of what is left out stays as it is.
@@ -37,10 +82,9 @@ void read(const Arguments& a, const Field& field, M& x) {
   if constexpr (is_optional<M>) {
     read(a, field, x.emplace());
   } else if constexpr (std::is_enum_v<M>) {
-    const std::vector<std::string>& all = field.type.choices;
-    x = static_cast<M>(std::find(all.begin(), all.end(), a.text(name)) - all.begin());
+    x = static_cast<M>(choice_index(a, field));
   } else if constexpr (std::is_same_v<M, bool>) {
-    x = a.flag(name);
+    x = field.type.choices.empty() ? a.flag(name) : choice_index(a, field) == 1;
   } else if constexpr (std::is_same_v<M, int>) {
     x = a.count(name);
   } else if constexpr (std::is_integral_v<M>) {

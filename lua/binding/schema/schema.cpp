@@ -306,9 +306,10 @@ Field object_or_function(std::string name, std::string class_name, std::string s
   field.type = object_or_function_type(std::move(class_name), std::move(signature));
   return field;
 }
-Field function_or_record(std::string name, std::string signature) {
+Field function_or_record(std::string name, std::string signature, std::vector<Field> fields) {
   Field field = function(std::move(name), std::move(signature));
   field.type.or_record = true;
+  field.type.fields = std::move(fields);
   return field;
 }
 

@@ -71,7 +71,7 @@ struct Type {
       name{}; // object: class, or "A|B" for either; function: its parameters, e.g. "(time: number): number"
   std::vector<Type> items{};   // list, named: one; tuple: one per place
   std::size_t min_items = 0;   // list
-  std::vector<Field> fields{}; // record; list: values with a name beside its items
+  std::vector<Field> fields{}; // record, or_record; list: values with a name beside its items
 
   std::string lua_type() const; // as LuaCATS writes it
   std::string words() const;    // as a message says it: "a number", "a list of numbers"
@@ -119,7 +119,8 @@ Field object(std::string name, std::string class_name);
 Field place(std::string name);
 Field function(std::string name, std::string signature);
 Field number_or_function(std::string name, std::string signature);
-Field function_or_record(std::string name, std::string signature);
+Field function_or_record(std::string name, std::string signature,
+                         std::vector<Field> fields); // times, values, ...
 Field vec3_or_function(std::string name, std::string signature);
 Field object_or_function(std::string name, std::string class_name, std::string signature);
 Field scalar(std::string name);
@@ -170,6 +171,7 @@ public:
   std::shared_ptr<T> object(const std::string& name) const {
     return std::dynamic_pointer_cast<T>(value(name).object());
   }
+  const Table& table() const { return *table_; }
   std::string canonical() const { return canonical_text(Value(*table_)); }
 
 private:

@@ -243,20 +243,9 @@ Value checked_plain(const Value& given, const Type& type, const std::string& pat
 }
 
 // A cdem.Record as it is; a list of {time, value} as one that holds its first and last values.
-Value checked_over_time(const Value& given, const std::string& path) {
-  if (given.table()->items.empty()) {
-    std::vector<Field> fields{list("times", number_type(), 2).required(),
-                              list("values", number_type(), 2).required(),
-                              choice("outside", {"hold", "zero"}).standard("hold")};
-    Table of_times = *given.table();
-    for (auto entry = of_times.named.begin(); entry != of_times.named.end();) {
-      const auto same = [&](const Field& field) { return field.name == entry->first; };
-      const bool known = std::any_of(fields.begin(), fields.end(), same);
-      // what else cdem.record tells stands beside them
-      entry = !known && of_times.named.count("times") > 0 ? of_times.named.erase(entry) : std::next(entry);
-    }
-    return Value(*checked_record(Value(std::move(of_times)), fields, path));
-  }
+Value checked_over_time(const Value& given, const Type& type, const std::string& path) {
+  if (given.table()->items.empty())
+    return Value(*checked_record(given, type.fields, path));
   Values times, values;
   const Value pairs = checked_list(given, list_type(tuple_type({number_type(), number_type()}), 2), path);
   for (const Value& pair : pairs.table()->items) {
@@ -306,7 +295,7 @@ Value check_value(const Value& given, const Type& type, const std::string& path)
     if (type.or_object && given.object() && given.object()->class_name() == type.object)
       return given;
     if (type.or_record && given.table())
-      return checked_over_time(given, path);
+      return checked_over_time(given, type, path);
     if (!given.reference())
       wrong_type(path, given, type);
     return given;

@@ -1,6 +1,7 @@
 #include "lua/binding/session/selections.hpp"
 
 #include "lua/binding/objects/objects.hpp"
+#include "lua/binding/schema/answers.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/text/nearest.hpp"
 
@@ -39,12 +40,11 @@ std::vector<Selection> by_name(const ModelObject& model, const std::string& name
 Selection predicate_selection(const std::shared_ptr<Reference>& function) {
   return Selection::where(
       [function](const geom::Vec3& x) {
-        const Values answer = function->call({x.x(), x.y(), x.z()});
-        const bool* yes = answer.empty() ? nullptr : answer[0].get<bool>();
-        if (!yes)
-          throw geom::InputError("function(x, y, z) of " + function->place(),
-                                 answer.empty() ? "nothing" : describe(answer[0]), "true or false");
-        return *yes;
+        const Values at{x.x(), x.y(), x.z()};
+        const Value answer = answer_of(*function, "function", at);
+        if (const bool* yes = answer.get<bool>())
+          return *yes;
+        refuse_answer(*function, "function", at, answer, "true or false");
       },
       "function of " + function->place());
 }
