@@ -1,18 +1,6 @@
-// A stage: the steps of one loop of a solving call, and the watch over them. A step reads, in the loop of the caller,
-//
-//   keep_restart_point       where the stage can be left
-//   update_contacts          contacts for where the nodes are; the longest step that they leave
-//   renew_interfaces         of blocks that have slid past each other: the model has other springs then
-//   split_nodes              of cohesive bodies, where faces near their strength: the model is another one then
-//   update_crack_pressures   pressures of fluids in cracks; the longest step that they leave
-//   update_loads             loads at this time
-//   advance                  begin_cracks; bond_forces; element_forces; shared_node_forces; rigid_bodies; what other
-//                            ranks have computed
-//   end_step                 everything has moved on by the time step
-//   watch                    energies, breaks, soundness, histories, progress, stop
-//
-// Each is a line of StepTimes. Between two steps, the stress of meshes and the contacts are a step behind the nodes.
-// synchronise advances them; SynchronisedView does so for code that only reads the state.
+// A stage: the steps of one loop of a solving call, and the watch over them. step/step.cpp is the step; each line of it is a
+// line of StepTimes. Between two steps, the stress of meshes and the contacts are a step behind the nodes. synchronise
+// advances them; SynchronisedView does so for code that only reads the state.
 #pragma once
 
 #include "libcdem/fracture/begin_cracks.hpp"
