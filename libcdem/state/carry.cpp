@@ -220,12 +220,17 @@ private:
     const std::vector<int> pieces = map_.fragments_of_nodes(now_, to_);
     const auto now = [&](int triangle) { return (*map_.new_triangle)[triangle]; };
     for (Contact c : from_.contacts) {
+      if (c.kind == Contact::tets) { // they keep their numbers where nodes are freed
+        if (!map_.tet)
+          to_.contacts.push_back(c);
+        continue;
+      }
       const bool edge = c.kind == Contact::edge;
       const auto [old_source, old_target] = triangles_of(c);
       const int source = now(old_source), target = now(old_target);
       if (source < 0 || target < 0 || (edge && (now(c.beside) < 0 || now(c.fragment) < 0)))
         continue;
-      c.source = static_cast<std::uint32_t>(3 * source + static_cast<int>(c.source) % 3) & 0x7fffffffu;
+      c.source = static_cast<std::uint32_t>(3 * source + static_cast<int>(c.source) % 3) & 0x3fffffffu;
       c.target = edge ? 3 * target + c.target % 3 : target;
       if (edge)
         c.beside = now(c.beside);

@@ -1,6 +1,10 @@
 #include "libcdem/contact/response/taken_over.hpp"
 
+#include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
+#include "libcdem/contact/response/tet_potential.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <algorithm>
 
@@ -18,70 +22,106 @@ int triangle_of(const ContactSurface& s, const FaceToTakeOver& of) {
   return found != end && found->face == of.face ? static_cast<int>(found - s.triangles.begin()) : -1;
 }
 
-Contact* contact_of(std::vector<Contact>& contacts, int triangle, int corner, int fragment) {
-  Contact like(Contact::spring, 3 * triangle + corner);
-  like.fragment = fragment;
+Contact* contact_of(std::vector<Contact>& contacts, int tet, int other) {
+  Contact like(Contact::tets, std::min(tet, other));
+  like.target = like.fragment = std::max(tet, other);
   const auto found = std::lower_bound(contacts.begin(), contacts.end(), like,
                                       [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   return found != contacts.end() && key(*found) == key(like) ? &*found : nullptr;
 }
 
-double stored(const Model& model, const Contact& c) {
-  return energy(c, law_of(model, c));
-}
-
-// force: N, on the source. Returns the energy that the contact stores more, J.
-double add_force(const Model& model, Contact& c, const geom::Vec3& force, double stiffness) {
-  const double before = stored(model, c), kn = law_of(model, c).kn;
-  const double had = kn * c.effective_penetration(), gets = std::max(0.0, force.dot(c.normal));
-  if (gets > 0) {
-    c.stiffness = (had + gets) * (had + gets) / (had * had / kn + gets * gets / stiffness);
-    c.reference_penetration = c.depth - (had + gets) / c.stiffness;
+// The two tetrahedra of a contact, side by side for eight values of phi0.
+class PairAt {
+public:
+  PairAt(const Model& model, const State& state, const Contact& c, double stiffness) {
+    for (int k = 0; k < 8; ++k) {
+      const geom::Vec3 x =
+          place_of(model, state, model.tets[k < 4 ? static_cast<int>(c.source) : c.target][k % 4]);
+      place_[k] = {x.x(), x.y(), x.z(), 0};
+      std::fill_n(batch_.node[k], lanes, k);
+    }
+    std::fill_n(batch_.stiffness, lanes, stiffness);
   }
-  c.shear += force - force.dot(c.normal) * c.normal;
-  return stored(model, c) - before;
+  double deepest() {
+    find_deepest(place_.data(), &batch_, 1);
+    return batch_.deepest[0];
+  }
+  // Between two values, in equal steps.
+  void press(double from, double to) {
+    for (int lane = 0; lane < lanes; ++lane)
+      batch_.phi0[lane] = from + (to - from) * lane / (lanes - 1);
+    press_pairs(place_.data(), &batch_, 1);
+  }
+  double phi0(int lane) const { return batch_.phi0[lane]; }
+  double energy(int lane) const { return batch_.energy[lane]; }
+  geom::Vec3 force(int lane) const { // N, on the first
+    geom::Vec3 sum = geom::Vec3::Zero();
+    for (int k = 0; k < 4; ++k)
+      sum += geom::Vec3(batch_.force[k][0][lane], batch_.force[k][1][lane], batch_.force[k][2][lane]);
+    return sum;
+  }
+
+private:
+  std::array<Node, 8> place_;
+  TetPairBatch batch_{};
+};
+
+// Gives the contact this normal force, N, by its phi0: the larger that is, the smaller the force.
+void set_force(PairAt& pair, double force, Contact& c) {
+  double high = std::max(pair.deepest(), c.reference_penetration), low = high, way = 0;
+  pair.press(low, high);
+  for (way = 1e-6 * (1 + std::abs(high)); pair.force(0).norm() < force && way < 1; way *= 8) {
+    low = high - way;
+    pair.press(low, high);
+  }
+  for (int i = 0; i < 18; ++i) {
+    int lane = 0;
+    while (lane + 1 < lanes - 1 && pair.force(lane + 1).norm() >= force)
+      ++lane;
+    low = pair.phi0(lane);
+    high = pair.phi0(lane + 1);
+    pair.press(low, high);
+  }
+  if (const double found = pair.force(0).norm(); found > 0 && pair.energy(0) > 0) {
+    const double pressed = 2 * pair.energy(0) / found;
+    c.reference_penetration = pair.phi0(0);
+    c.depth = c.reference_penetration + pressed;
+    c.stiffness = found / pressed;
+    c.normal = pair.force(0) / found;
+  }
 }
 
 } // namespace
 
 double take_over(const Model& model, State& state, const ContactWork& work, const FaceToTakeOver& of) {
   const ContactSurface& s = model.surface;
-  const int a = triangle_of(s, of);
-  if (a < 0 || work.fragment.empty())
+  const int t = triangle_of(s, of);
+  if (t < 0 || work.fragment.empty())
     return of.left.energy;
-  const int b = s.triangles[a].mate;
-  std::array<std::array<Contact*, 2>, 3> touching; // per corner of the face, on side a and b
-  int all = 0;
-  for (int corner = 0; corner < 3; ++corner) {
-    touching[corner] = {contact_of(state.contacts, a, corner, work.fragment[b]),
-                        // outward_b() turns the corners 1 and 2 round
-                        contact_of(state.contacts, b, (3 - corner) % 3, work.fragment[a])};
-    all +=
-        static_cast<int>(touching[corner][0] != nullptr) + static_cast<int>(touching[corner][1] != nullptr);
-  }
-  double lost = of.left.energy;
-  geom::Vec3 rest = geom::Vec3::Zero(); // N, of corners at which nothing touches
-  double rest_stiffness = 0;
-  const auto add = [&](int corner, int side, const geom::Vec3& force, double stiffness) {
-    lost -= add_force(model, *touching[corner][side], side == 0 ? force : geom::Vec3(-force), stiffness);
-  };
-  for (int corner = 0; corner < 3; ++corner) {
-    const int here =
-        static_cast<int>(touching[corner][0] != nullptr) + static_cast<int>(touching[corner][1] != nullptr);
-    if (here == 0) {
-      rest += of.left.force[corner];
-      rest_stiffness += of.left.stiffness;
-    }
-    for (int side = 0; side < 2; ++side)
-      if (touching[corner][side])
-        add(corner, side, of.left.force[corner] / here, of.left.stiffness / here);
-  }
-  if (rest_stiffness > 0)
-    for (int corner = 0; corner < 3; ++corner)
-      for (int side = 0; side < 2; ++side)
-        if (touching[corner][side])
-          add(corner, side, rest / all, rest_stiffness / all);
-  return lost;
+  const ContactTriangle& side = s.triangles[t];
+  const int other = s.triangles[side.mate].tet;
+  Contact* const c = contact_of(state.contacts, side.tet, other);
+  if (!c)
+    return of.left.energy;
+  geom::Vec3 force = geom::Vec3::Zero(); // N, on side a
+  for (const geom::Vec3& at_corner : of.left.force)
+    force += at_corner;
+  const double pressing = -force.dot(unit_normal(corners_of(model, state, side.nodes)));
+  if (static_cast<int>(c->source) != side.tet)
+    force = -force;
+  ContactLaw law = law_of(model, *c);
+  const double before = c->effective_penetration() > 0 ? energy(*c, law) : 0,
+               has = c->effective_penetration() * law.kn;
+  if (pressing <= 0)
+    return of.left.energy;
+  const Joint& joint = *contact_joint(model, side.block, side.block);
+  PairAt pair(model, state, *c,
+              tet_pair_law(model, joint, 0, side.block, tet_size(model, static_cast<int>(c->source)),
+                           tet_size(model, c->target))
+                  .corner);
+  set_force(pair, has + pressing, *c);
+  c->shear += force - force.dot(c->normal) * c->normal;
+  return of.left.energy - energy(*c, law_of(model, *c)) + before;
 }
 
 } // namespace cdem

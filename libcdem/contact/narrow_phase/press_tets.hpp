@@ -1,0 +1,30 @@
+// Contacts of a block with itself, by pairs of its tetrahedra (response/tet_potential.hpp).
+//
+// A pair that is found in an overlap starts without a force: phi0 is that overlap, and stays as long as the two overlap. Only a
+// pair that came together within the step starts at 0. Tetrahedra that had a node of the mesh in common may overlap by
+// `slack_ratio` of their height more: around that node they fill all space between them, and whatever strain they have makes
+// them overlap.
+//
+// The normal force N of a contact is the resultant of the gradient, its normal n the direction of it. Corner i of a
+// tetrahedron with the force f_i has the weight f_i . n / N: friction and damping act by these weights, so they
+// keep momentum.
+#pragma once
+
+#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/data/tet_contacts.hpp"
+#include "libcdem/state/state.hpp"
+
+namespace cdem {
+
+// What one chunk of pairs found in a step.
+struct TetChunk {
+  std::vector<Contact> contacts;
+  std::vector<TetPairForce> forces; // of those that press
+  double friction = 0, damping = 0; // J
+  double depth = 0, depth_over_height = 0;
+};
+
+// Finds the contacts of all pairs, in the order of keys. Pairs go to sleep.
+std::vector<TetChunk> press_tets(const Model&, const State&, ContactWork&, int threads);
+
+} // namespace cdem
