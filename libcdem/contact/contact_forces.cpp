@@ -88,10 +88,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
       return sums; // something is not a number: the stage's watch will say where
     read_nodes_of_rows(model, own);
   }
-  if (own.tet_contacts)
-    move_tets(model, state, own);
-  if (fragments_due || (own.tet_contacts && pairs_left_skin(own)))
-    find_tet_pairs(model, state, own);
+  find_tet_pairs(model, state, own, fragments_due);
   keep_own_contacts(model, state, own);
   own.any_depth_begins = !known || (anew && any_bonded_faces(model, state));
   // If a fragment has fallen apart, each contact stays with the part on which it acts.

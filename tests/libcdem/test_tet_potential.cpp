@@ -36,11 +36,11 @@ Corners random_pair(std::mt19937& random, double apart) {
   }
 }
 
-TetPairBatch batch_of(double phi0) {
-  TetPairBatch batch{};
+TetPairPress batch_of(double phi0) {
+  TetPairPress batch{};
   for (int lane = 0; lane < lanes; ++lane) {
     for (int i = 0; i < 8; ++i)
-      batch.node[i][lane] = 8 * lane + i;
+      batch.of.node[i][lane] = 8 * lane + i;
     batch.phi0[lane] = phi0;
     batch.stiffness[lane] = 1;
   }
@@ -55,11 +55,11 @@ std::vector<Node> places_of(const std::array<Corners, lanes>& pairs) {
   return places;
 }
 
-TetPairBatch pressed(const std::array<Corners, lanes>& pairs, double phi0 = 0) {
-  TetPairBatch batch = batch_of(phi0);
+TetPairPress pressed(const std::array<Corners, lanes>& pairs, double phi0 = 0) {
+  TetPairPress batch = batch_of(phi0);
   const std::vector<Node> places = places_of(pairs);
   press_pairs(places.data(), &batch, 1);
-  find_deepest(places.data(), &batch, 1);
+  find_deepest(places.data(), &batch.of, 1);
   return batch;
 }
 
@@ -69,7 +69,7 @@ std::array<Corners, lanes> same(const Corners& x) {
   return pairs;
 }
 
-Vec3 force(const TetPairBatch& batch, int corner, int lane = 0) {
+Vec3 force(const TetPairPress& batch, int corner, int lane = 0) {
   return {batch.force[corner][0][lane], batch.force[corner][1][lane], batch.force[corner][2][lane]};
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("forces of overlapping tetrahedra are the gradient of their energy", "
   int overlapping = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const Corners x = random_pair(random, 1);
-    const TetPairBatch here = pressed(same(x), 0.01);
+    const TetPairPress here = pressed(same(x), 0.01);
     if (here.energy[0] < 1e-6)
       continue;
     ++overlapping;
@@ -93,7 +93,7 @@ TEST_CASE("forces of overlapping tetrahedra are the gradient of their energy", "
       moved[2 * i][of[i] / 3][of[i] % 3] += e;
       moved[2 * i + 1][of[i] / 3][of[i] % 3] -= e;
     }
-    const TetPairBatch around = pressed(moved, 0.01);
+    const TetPairPress around = pressed(moved, 0.01);
     for (int i = 0; i < 4; ++i)
       CHECK(force(here, of[i] / 3)[of[i] % 3] ==
             Approx((around.energy[2 * i + 1] - around.energy[2 * i]) / (2 * e)).margin(2e-8));
@@ -105,7 +105,7 @@ TEST_CASE("forces of overlapping tetrahedra keep momentum and angular momentum",
   std::mt19937 random(7);
   for (int trial = 0; trial < 500; ++trial) {
     const Corners x = random_pair(random, 0.8);
-    const TetPairBatch batch = pressed(same(x));
+    const TetPairPress batch = pressed(same(x));
     Vec3 sum = Vec3::Zero(), turn = Vec3::Zero();
     for (int i = 0; i < 8; ++i) {
       sum += force(batch, i);
@@ -121,8 +121,8 @@ TEST_CASE("tetrahedra press each other just where they overlap", "[contact]") {
   int parted = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     Corners x = random_pair(random, 1.6);
-    const TetPairBatch batch = pressed(same(x));
-    const double deepest = batch.deepest[0];
+    const TetPairPress batch = pressed(same(x));
+    const double deepest = batch.of.deepest[0];
     CHECK((batch.energy[0] > 0) == (deepest > 0));
     if (deepest > 0) {
       CHECK(pressed(same(x), 1.0001 * deepest).energy[0] == 0);
@@ -138,7 +138,7 @@ TEST_CASE("tetrahedra press each other just where they overlap", "[contact]") {
       for (int i = 0; i < 4; ++i)
         one[i] += way;
     }
-    const TetPairBatch after = pressed(moved);
+    const TetPairPress after = pressed(moved);
     for (int lane = 0; lane < lanes; ++lane)
       CHECK(after.energy[lane] == 0);
   }

@@ -14,10 +14,23 @@
 namespace cdem {
 namespace {
 
+using TetPair = std::pair<int, int>;
+
 // Skin of a tetrahedron, over the usual height of one at the surface of its block.
 constexpr double skin_ratio = 0.05;
+// Tetrahedra that had a node of the mesh in common may overlap by this part of their height: around the node they fill all
+// space between them, and whatever strain they have makes them overlap.
+constexpr double slack_ratio = 0.005;
+// Rings of tetrahedra below the surface for which pairs are found too: cracks will open some of them.
+constexpr int rings_below = 2;
+// Steps for which pairs are near.
+constexpr double steps_near = 30;
 
-// Per node of the model: the smallest copy of it that its tetrahedra hang together with there.
+bool touches_itself(const Model& model, const ContactWork& work, int block) {
+  const Block& b = model.blocks[block];
+  return work.broken[block] && b.meshed && !b.star() && b.rigid < 0 && contact_joint(model, block, block);
+}
+
 std::vector<int> joints_of(const Model& model, const State& state, const ContactWork& work) {
   geom::DisjointSets sets(model.node_position.size());
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
@@ -33,37 +46,69 @@ std::vector<int> joints_of(const Model& model, const State& state, const Contact
   return joint;
 }
 
-// Pairs of tetrahedra whose common face has broken and is still held by its own springs.
-std::vector<std::pair<int, int>> held_by_faces(const Model& model, const State& state, const ContactWork& work) {
-  std::vector<std::pair<int, int>> held;
-  for (const ContactTriangle& t : model.surface.triangles)
-    if (t.face >= 0 && work.broken[t.block] && t.tet < model.surface.triangles[t.mate].tet &&
-        (state.faces[t.face / lanes].told[t.face % lanes] & ToldOfFace::left) == 0)
+std::vector<TetPair> held_by_faces(const Model& model, const State& state, const ContactWork& work) {
+  std::vector<TetPair> held;
+  for (const ContactTriangle& t : model.surface.triangles) {
+    if (t.face < 0 || !work.broken[t.block] || t.tet > model.surface.triangles[t.mate].tet)
+      continue;
+    const std::uint8_t told = state.faces[t.face / lanes].told[t.face % lanes];
+    if ((told & ToldOfFace::separate) != 0 && (told & ToldOfFace::left) == 0)
       held.emplace_back(t.tet, model.surface.triangles[t.mate].tet);
+  }
   std::sort(held.begin(), held.end());
   return held;
 }
 
-void find_tets(const Model& model, const ContactWork& work, TetContacts& found) {
-  found.nodes_begin.push_back(0);
-  for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block) {
-    if (!touches_itself(model, work, block))
-      continue;
-    const std::vector<char> at_surface = tets_at_surface(model, work, block);
-    const std::size_t first = found.nodes.size();
-    for (std::size_t i = 0; i < at_surface.size(); ++i)
-      if (at_surface[i]) {
-        const int tet = model.blocks[block].tet_begin + static_cast<int>(i);
-        found.tets.push_back({tet, block, tet_size(model, tet)});
-        const geom::Tet& nodes = model.tets[found.tets.back().tet];
-        found.nodes.insert(found.nodes.end(), nodes.begin(), nodes.end());
-      }
-    const auto begin = found.nodes.begin() + static_cast<std::ptrdiff_t>(first);
-    std::sort(begin, found.nodes.end());
-    found.nodes.erase(std::unique(begin, found.nodes.end()), found.nodes.end());
-    found.block_of_nodes.push_back(block);
-    found.nodes_begin.push_back(static_cast<int>(found.nodes.size()));
+bool had_a_node_in_common(const Model& model, const SurfaceTet& a, const SurfaceTet& b) {
+  const std::vector<int>& original = model.surface.original;
+  return std::any_of(a.nodes.begin(), a.nodes.end(), [&](int m) {
+    return std::any_of(b.nodes.begin(), b.nodes.end(), [&](int n) { return original[m] == original[n]; });
+  });
+}
+
+bool may_touch(const TetContacts& of, const SurfaceTet& a, const SurfaceTet& b) {
+  if (!a.at_surface || !b.at_surface)
+    return false;
+  for (const int m : a.nodes)
+    for (const int n : b.nodes)
+      if (of.joint[m] == of.joint[n])
+        return false;
+  return !std::binary_search(of.held.begin(), of.held.end(), TetPair(a.tet, b.tet));
+}
+
+// The tetrahedra at the surface and the next ones below it.
+std::vector<char> with_rings(const Model& model, const Block& block, std::vector<char> some) {
+  const std::vector<int>& original = model.surface.original;
+  std::vector<char> reached(original.size(), 0);
+  for (int ring = 0; ring < rings_below; ++ring) {
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (some[i])
+        for (const int node : model.tets[block.tet_begin + i])
+          reached[original[node]] = 1;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const geom::Tet& nodes = model.tets[block.tet_begin + i];
+      some[i] = static_cast<char>(
+          std::any_of(nodes.begin(), nodes.end(), [&](int node) { return reached[original[node]] != 0; }));
+    }
   }
+  return some;
+}
+
+void add_tets(const Model& model, const ContactWork& work, int block, TetContacts& to) {
+  const Block& b = model.blocks[block];
+  const std::vector<char> at_surface = tets_at_surface(model, work, block),
+                          all = with_rings(model, b, at_surface);
+  const auto first = static_cast<std::ptrdiff_t>(to.nodes.size());
+  for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
+    if (all[tet - b.tet_begin]) {
+      to.number[tet] = static_cast<int>(to.tets.size());
+      to.tets.push_back(
+          {tet, block, model.tets[tet], tet_size(model, tet), at_surface[tet - b.tet_begin] != 0});
+      to.nodes.insert(to.nodes.end(), model.tets[tet].begin(), model.tets[tet].end());
+    }
+  std::sort(to.nodes.begin() + first, to.nodes.end());
+  to.nodes.erase(std::unique(to.nodes.begin() + first, to.nodes.end()), to.nodes.end());
+  to.nodes_begin.push_back(static_cast<int>(to.nodes.size()));
 }
 
 void set_places(const Model& model, const State& state, TetContacts& of) {
@@ -73,100 +118,159 @@ void set_places(const Model& model, const State& state, TetContacts& of) {
   }
 }
 
-// Leaves pairs that a plane of one of them parts by less than their skins.
-void add_near(const Model& model, const State& state, const std::vector<std::pair<int, int>>& pairs,
-              TetContacts& to) {
-  auto contact = std::partition_point(state.contacts.begin(), state.contacts.end(),
-                                      [](const Contact& c) { return c.kind != Contact::tets; });
-  std::vector<TetPairBatch> batches((pairs.size() + lanes - 1) / lanes);
-  for (std::size_t i = 0; i < lanes * batches.size(); ++i) {
-    const auto& [a, b] = pairs[std::min(i, pairs.size() - 1)];
-    for (int k = 0; k < 4; ++k) {
-      batches[i / lanes].node[k][i % lanes] = model.tets[to.tets[a].tet][k];
-      batches[i / lanes].node[4 + k][i % lanes] = model.tets[to.tets[b].tet][k];
+// Adds pairs that no plane of one of them parts by more than their skins.
+void add_near(const Model& model, const std::vector<TetPair>& pairs, TetContacts& to) {
+  constexpr std::size_t at_a_time = 64 * lanes;
+  std::vector<TetPairView> views(at_a_time / lanes);
+  for (std::size_t begin = 0; begin < pairs.size(); begin += at_a_time) {
+    const std::size_t count = std::min(at_a_time, pairs.size() - begin), full = (count + lanes - 1) / lanes;
+    for (std::size_t i = 0; i < lanes * full; ++i) {
+      const auto& [a, b] = pairs[begin + std::min(i, count - 1)];
+      views[i / lanes].set(static_cast<int>(i % lanes), to.tets[a].nodes, to.tets[b].nodes);
+    }
+    find_parted(to.place.data(), views.data(), static_cast<std::int64_t>(full));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double apart = -views[i / lanes].deepest[i % lanes];
+      if (apart > 2 * to.skin)
+        continue;
+      const auto& [a, b] = pairs[begin + i];
+      const SurfaceTet &one = to.tets[a], &other = to.tets[b];
+      to.a.push_back(a);
+      to.b.push_back(b);
+      to.slack.push_back(
+          had_a_node_in_common(model, one, other)
+              ? static_cast<float>(slack_ratio * std::min(one.size.height, other.size.height))
+              : 0);
+      to.until.push_back(may_touch(to, one, other) ? rounded_down(apart) : TetContacts::never);
     }
   }
-  find_parted(to.place.data(), batches.data(), static_cast<std::int64_t>(batches.size()));
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    double apart = -batches[i / lanes].deepest[i % lanes];
-    const std::pair<int, int> tets(to.tets[pairs[i].first].tet, to.tets[pairs[i].second].tet);
-    while (contact != state.contacts.end() && std::pair<int, int>(contact->source, contact->target) < tets)
-      ++contact;
-    if (contact != state.contacts.end() && std::pair<int, int>(contact->source, contact->target) == tets)
-      apart = 0;
-    if (apart > 2 * to.skin)
-      continue;
-    to.a.push_back(pairs[i].first);
-    to.b.push_back(pairs[i].second);
-    to.until.push_back(rounded_down(apart));
-  }
 }
 
-} // namespace
-
-bool touches_itself(const Model& model, const ContactWork& work, int block) {
-  const Block& b = model.blocks[block];
-  return work.broken[block] && b.meshed && !b.star() && b.rigid < 0 && contact_joint(model, block, block);
-}
-
-void find_tet_pairs(const Model& model, const State& state, ContactWork& work) {
-  bool any = false;
-  for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
-    any = any || touches_itself(model, work, block);
-  if (!any) {
-    work.tet_contacts = nullptr;
-    return;
-  }
+void find_anew(const Model& model, const State& state, ContactWork& work) {
   auto found = std::make_shared<TetContacts>();
-  if (work.tet_contacts)
-    std::swap(found->place, work.tet_contacts->place);
-  work.tet_contacts = found;
   TetContacts& to = *found;
   to.place.resize(model.node_position.size());
   to.way.resize(model.node_position.size());
-  find_tets(model, work, to);
-  set_places(model, state, to);
-  to.path.assign(to.tets.size(), 0.0);
+  to.number.assign(model.tets.size(), -1);
+  to.nodes_begin.push_back(0);
   to.skin = std::numeric_limits<double>::infinity();
-  for (const int block : to.block_of_nodes)
-    to.skin = std::min(to.skin, skin_ratio * model.surface.usual_height[block]);
+  for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
+    if (touches_itself(model, work, block)) {
+      add_tets(model, work, block, to);
+      to.skin = std::min(to.skin, skin_ratio * model.surface.usual_height[block]);
+    }
+  set_places(model, state, to);
+  to.place_at_first = to.place;
+  to.path.assign(to.tets.size(), 0.0);
+  to.limit.assign(to.tets.size(), -1.0);
+  to.moved.resize(to.tets.size());
+  to.moved_at.assign(to.tets.size(), -1);
+  to.joint = joints_of(model, state, work);
+  to.held = held_by_faces(model, state, work);
   std::vector<geom::Box> boxes(to.tets.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (const int node : model.tets[to.tets[i].tet])
+    for (const int node : to.tets[i].nodes)
       boxes[i].extend(geom::Vec3(to.place[node].x, to.place[node].y, to.place[node].z));
     boxes[i].min.array() -= to.skin;
     boxes[i].max.array() += to.skin;
   }
-  const std::vector<int> joint = joints_of(model, state, work);
-  const std::vector<std::pair<int, int>> held = held_by_faces(model, state, work);
-  std::vector<std::pair<int, int>> pairs = geom::touching_pairs(boxes);
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                             [&](const std::pair<int, int>& pair) {
-                               const SurfaceTet &a = to.tets[pair.first], &b = to.tets[pair.second];
-                               if (a.block != b.block)
-                                 return true;
-                               for (const int m : model.tets[a.tet])
-                                 for (const int n : model.tets[b.tet])
-                                   if (joint[m] == joint[n])
-                                     return true;
-                               return std::binary_search(held.begin(), held.end(), std::pair(a.tet, b.tet));
-                             }),
-              pairs.end());
-  if (!pairs.empty())
-    add_near(model, state, pairs, to);
-  to.awake.assign((to.a.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk, 0);
+  std::vector<TetPair> pairs = geom::touching_pairs(boxes);
+  if (to.nodes_begin.size() > 2)
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                               [&](const TetPair& pair) {
+                                 return to.tets[pair.first].block != to.tets[pair.second].block;
+                               }),
+                pairs.end());
+  add_near(model, pairs, to);
+  to.motion.resize(to.a.size());
+  work.tet_contacts = std::move(found);
 }
 
-bool pairs_left_skin(const ContactWork& work) {
-  const TetContacts& of = *work.tet_contacts;
-  return std::any_of(of.path.begin(), of.path.end(), [&](double path) { return path > of.skin; });
-}
-
-void move_tets(const Model& model, const State& state, ContactWork& work) {
+// What pairs may touch, after contact has been told of bonds. False where a tetrahedron has come to the surface for which no pairs
+// are known.
+bool told_anew(const Model& model, const State& state, ContactWork& work) {
   TetContacts& of = *work.tet_contacts;
+  std::vector<char> changed(of.tets.size(), 0);
+  std::size_t blocks = 0;
+  for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block) {
+    if (!touches_itself(model, work, block))
+      continue;
+    ++blocks;
+    const std::vector<char> at_surface = tets_at_surface(model, work, block);
+    for (std::size_t i = 0; i < at_surface.size(); ++i) {
+      const int t = of.number[model.blocks[block].tet_begin + i];
+      if (t < 0 && at_surface[i])
+        return false;
+      if (t < 0 || of.tets[t].at_surface == (at_surface[i] != 0))
+        continue;
+      of.tets[t].at_surface = at_surface[i] != 0;
+      changed[t] = 1;
+    }
+  }
+  if (blocks + 1 != of.nodes_begin.size())
+    return false;
+  std::vector<int> joint = joints_of(model, state, work);
+  std::vector<TetPair> held = held_by_faces(model, state, work), differ;
+  std::set_symmetric_difference(held.begin(), held.end(), of.held.begin(), of.held.end(),
+                                std::back_inserter(differ));
+  for (const auto& [a, b] : differ)
+    for (const int tet : {a, b})
+      if (const int t = of.number[tet]; t >= 0)
+        changed[t] = 1;
+  for (std::size_t t = 0; t < changed.size(); ++t)
+    for (const int node : of.tets[t].nodes)
+      changed[t] = static_cast<char>(changed[t] != 0 || joint[node] != of.joint[node]);
+  std::swap(of.joint, joint);
+  std::swap(of.held, held);
+  for (std::size_t p = 0; p < of.a.size(); ++p) {
+    const int a = of.a[p], b = of.b[p];
+    if (!changed[a] && !changed[b])
+      continue;
+    const bool free = may_touch(of, of.tets[a], of.tets[b]), was = of.until[p] < TetContacts::never;
+    if (free == was)
+      continue;
+    of.until[p] = free ? 0 : TetContacts::never;
+    of.motion[p] = {};
+    of.fresh = true;
+  }
+  std::fill(of.limit.begin(), of.limit.end(), -1.0);
+  return true;
+}
+
+void find_near(const ContactWork& work, TetContacts& of) {
+  const auto way_of = [&](std::size_t t) {
+    const geom::Tet& n = of.tets[t].nodes;
+    return std::max(std::max(of.way[n[0]], of.way[n[1]]), std::max(of.way[n[2]], of.way[n[3]]));
+  };
+  double mean = 0;
+  for (std::size_t t = 0; t < of.tets.size(); ++t)
+    mean += way_of(t) / static_cast<double>(of.tets.size());
+  mean = std::max(mean, 1e-4 * of.skin);
+  for (std::size_t t = 0; t < of.tets.size(); ++t)
+    of.limit[t] = of.path[t] + steps_near * std::max(mean, way_of(t));
+  of.near.clear();
+  of.near_a.clear();
+  of.near_b.clear();
+  of.near_until.clear();
+  for (std::size_t p = 0; p < of.a.size(); ++p) {
+    const int a = of.a[p], b = of.b[p];
+    if (!(of.until[p] <= of.limit[a] + of.limit[b]) &&
+        !(work.looks_at_all && of.until[p] < TetContacts::never))
+      continue;
+    of.near.push_back(static_cast<int>(p));
+    of.near_a.push_back(a);
+    of.near_b.push_back(b);
+    of.near_until.push_back(of.until[p]);
+  }
+  of.awake.assign((of.near.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk, 0);
+}
+
+// Writes where the nodes are and how far the tetrahedra have gone in the step.
+void move(const Model& model, const State& state, const ContactWork& work, TetContacts& of) {
   set_places(model, state, of);
-  for (std::size_t i = 0; i < of.block_of_nodes.size(); ++i) {
-    const auto begin = of.nodes.begin() + of.nodes_begin[i], end = of.nodes.begin() + of.nodes_begin[i + 1];
+  for (std::size_t block = 0; block + 1 < of.nodes_begin.size(); ++block) {
+    const auto begin = of.nodes.begin() + of.nodes_begin[block],
+               end = of.nodes.begin() + of.nodes_begin[block + 1];
     geom::Vec3 mean = geom::Vec3::Zero(); // m/s
     for (auto node = begin; node != end; ++node)
       mean += velocity_of(state, *node);
@@ -175,10 +279,44 @@ void move_tets(const Model& model, const State& state, ContactWork& work) {
       of.way[*node] = work.step * (velocity_of(state, *node) - mean).norm();
   }
   constexpr double rounding = 1 + 1e-6;
-  for (std::size_t i = 0; i < of.tets.size(); ++i) {
-    const geom::Tet& n = model.tets[of.tets[i].tet];
-    of.path[i] += rounding * std::max(std::max(of.way[n[0]], of.way[n[1]]), std::max(of.way[n[2]], of.way[n[3]]));
+  for (std::size_t t = 0; t < of.tets.size(); ++t) {
+    const geom::Tet& n = of.tets[t].nodes;
+    of.path[t] +=
+        rounding * std::max(std::max(of.way[n[0]], of.way[n[1]]), std::max(of.way[n[2]], of.way[n[3]]));
   }
+  ++of.steps;
+}
+
+bool any_beyond(const std::vector<double>& path, const std::vector<double>& limit) {
+  for (std::size_t t = 0; t < path.size(); ++t)
+    if (path[t] > limit[t])
+      return true;
+  return false;
+}
+
+} // namespace
+
+void find_tet_pairs(const Model& model, const State& state, ContactWork& work, bool told) {
+  if (told) {
+    bool any = false;
+    for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
+      any = any || touches_itself(model, work, block);
+    if (!any)
+      work.tet_contacts = nullptr;
+    else if (!work.tet_contacts)
+      find_anew(model, state, work);
+  }
+  if (!work.tet_contacts)
+    return;
+  move(model, state, work, *work.tet_contacts);
+  const TetContacts& before = *work.tet_contacts;
+  const bool left = std::any_of(before.path.begin(), before.path.end(),
+                                [&](double path) { return path > before.skin; });
+  if (left || (told && !told_anew(model, state, work)))
+    find_anew(model, state, work);
+  TetContacts& of = *work.tet_contacts;
+  if (any_beyond(of.path, of.limit))
+    find_near(work, of);
 }
 
 } // namespace cdem

@@ -6,16 +6,8 @@
 
 namespace cdem {
 
-// Blocks that touch themselves, once faces of them have broken.
-bool touches_itself(const Model&, const ContactWork&, int block);
-
-// Writes ContactWork::tet_contacts, null where no block does. Contact has been told of bonds.
-void find_tet_pairs(const Model&, const State&, ContactWork&);
-
-// m, of the block: the skin around each of its tetrahedra.
-bool pairs_left_skin(const ContactWork&);
-
-// Writes where the nodes are and how far the tetrahedra have gone in the step.
-void move_tets(const Model&, const State&, ContactWork&);
+// Writes ContactWork::tet_contacts, null where no block touches itself with broken faces. told: contact has just been told of
+// bonds, and has found fragments.
+void find_tet_pairs(const Model&, const State&, ContactWork&, bool told);
 
 } // namespace cdem

@@ -73,14 +73,14 @@ namespace {
 
 ContactArms tet_arms(const Model& model, const State& state, const Contact& c) {
   std::array<Node, 8> place;
-  TetPairBatch batch{};
+  TetPairPress batch{};
   ContactArms arms;
   for (int k = 0; k < 8; ++k) {
     const int node = model.tets[k < 4 ? static_cast<int>(c.source) : c.target][k % 4];
     (k < 4 ? arms.source : arms.target)[k % 4] = node;
     const geom::Vec3 x = place_of(model, state, node);
     place[k] = {x.x(), x.y(), x.z(), 0};
-    std::fill_n(batch.node[k], lanes, k);
+    std::fill_n(batch.of.node[k], lanes, k);
   }
   std::fill_n(batch.phi0, lanes, c.reference_penetration);
   std::fill_n(batch.stiffness, lanes, 1.0);

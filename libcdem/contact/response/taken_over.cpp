@@ -38,13 +38,13 @@ public:
       const geom::Vec3 x =
           place_of(model, state, model.tets[k < 4 ? static_cast<int>(c.source) : c.target][k % 4]);
       place_[k] = {x.x(), x.y(), x.z(), 0};
-      std::fill_n(batch_.node[k], lanes, k);
+      std::fill_n(batch_.of.node[k], lanes, k);
     }
     std::fill_n(batch_.stiffness, lanes, stiffness);
   }
   double deepest() {
-    find_deepest(place_.data(), &batch_, 1);
-    return batch_.deepest[0];
+    find_deepest(place_.data(), &batch_.of, 1);
+    return batch_.of.deepest[0];
   }
   // Between two values, in equal steps.
   void press(double from, double to) {
@@ -63,7 +63,7 @@ public:
 
 private:
   std::array<Node, 8> place_;
-  TetPairBatch batch_{};
+  TetPairPress batch_{};
 };
 
 // Gives the contact this normal force, N, by its phi0: the larger that is, the smaller the force.

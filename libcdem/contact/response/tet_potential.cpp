@@ -4,33 +4,33 @@ namespace cdem {
 namespace {
 
 template <class V>
-CDEM_INLINE TetCorners<V> corners(const Node* place, const TetPairBatch& batch, int tet, int lane) {
-  return {simd::gather_wide<V>(place, batch.node[4 * tet] + lane),
-          simd::gather_wide<V>(place, batch.node[4 * tet + 1] + lane),
-          simd::gather_wide<V>(place, batch.node[4 * tet + 2] + lane),
-          simd::gather_wide<V>(place, batch.node[4 * tet + 3] + lane)};
+CDEM_INLINE TetCorners<V> corners(const Node* place, const TetPairView& of, int tet, int lane) {
+  return {simd::gather_wide<V>(place, of.node[4 * tet] + lane),
+          simd::gather_wide<V>(place, of.node[4 * tet + 1] + lane),
+          simd::gather_wide<V>(place, of.node[4 * tet + 2] + lane),
+          simd::gather_wide<V>(place, of.node[4 * tet + 3] + lane)};
 }
 
 template <class V, bool exactly>
-CDEM_INLINE void deepest_kernel(const Node* place, TetPairBatch* batches, std::int64_t count) {
+CDEM_INLINE void deepest_kernel(const Node* place, TetPairView* views, std::int64_t count) {
   for (std::int64_t i = 0; i < count; ++i)
     for (int lane = 0; lane < lanes; lane += simd::width<V>) {
-      const TetCorners<V> a = corners<V>(place, batches[i], 0, lane), b = corners<V>(place, batches[i], 1, lane);
+      const TetCorners<V> a = corners<V>(place, views[i], 0, lane), b = corners<V>(place, views[i], 1, lane);
       const DepthsInTet<V> in_a = depths_in_tet<V>(a, b), in_b = depths_in_tet<V>(b, a);
       const V apart = simd::most<V>(parted_by_plane<V>(in_a), parted_by_plane<V>(in_b));
       V deepest = -apart;
       if (exactly && simd::any(apart <= V{}))
         deepest = simd::most<V>(deepest_in_tet<V>(in_a), deepest_in_tet<V>(in_b));
-      simd::store_wide<V>(batches[i].deepest + lane, deepest);
+      simd::store_wide<V>(views[i].deepest + lane, deepest);
     }
 }
 
 template <class V>
-CDEM_INLINE void press_kernel(const Node* place, TetPairBatch* batches, std::int64_t count) {
+CDEM_INLINE void press_kernel(const Node* place, TetPairPress* batches, std::int64_t count) {
   for (std::int64_t i = 0; i < count; ++i)
     for (int lane = 0; lane < lanes; lane += simd::width<V>) {
-      TetPairBatch& batch = batches[i];
-      const TetCorners<V> a = corners<V>(place, batch, 0, lane), b = corners<V>(place, batch, 1, lane);
+      TetPairPress& batch = batches[i];
+      const TetCorners<V> a = corners<V>(place, batch.of, 0, lane), b = corners<V>(place, batch.of, 1, lane);
       const V phi0 = simd::load_wide<V>(batch.phi0 + lane), k = simd::load_wide<V>(batch.stiffness + lane);
       TetCorners<V> on_a{}, on_b{};
       V energy = press_into_tet<V>(a, b, phi0, k, on_a, on_b);
@@ -49,15 +49,15 @@ CDEM_INLINE void press_kernel(const Node* place, TetPairBatch* batches, std::int
 
 } // namespace
 
-void find_parted(const Node* place, TetPairBatch* batches, std::int64_t count) {
-  simd::best_width<deepest_kernel<simd::Oct, false>, deepest_kernel<simd::Quad, false>>(place, batches, count);
+void find_parted(const Node* place, TetPairView* views, std::int64_t count) {
+  simd::best_width<deepest_kernel<simd::Oct, false>, deepest_kernel<simd::Quad, false>>(place, views, count);
 }
 
-void find_deepest(const Node* place, TetPairBatch* batches, std::int64_t count) {
-  simd::best_width<deepest_kernel<simd::Oct, true>, deepest_kernel<simd::Quad, true>>(place, batches, count);
+void find_deepest(const Node* place, TetPairView* views, std::int64_t count) {
+  simd::best_width<deepest_kernel<simd::Oct, true>, deepest_kernel<simd::Quad, true>>(place, views, count);
 }
 
-void press_pairs(const Node* place, TetPairBatch* batches, std::int64_t count) {
+void press_pairs(const Node* place, TetPairPress* batches, std::int64_t count) {
   simd::best_width<press_kernel<simd::Oct>, press_kernel<simd::Quad>>(place, batches, count);
 }
 

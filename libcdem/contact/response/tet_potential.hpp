@@ -200,22 +200,36 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
   return energy;
 }
 
-// Some pairs side by side, as kernels read and write them: corners 0 to 3 are those of the first tetrahedron, 4 to 7 those of
-// the second.
-struct TetPairBatch {
+// Some pairs side by side, as kernels read them: nodes 0 to 3 are those of the first tetrahedron, 4 to 7 those of the second.
+struct TetPairView {
   std::int32_t node[8][lanes];
-  double phi0[lanes];      // m
-  double stiffness[lanes]; // N/m
   // m, the largest overlap; below 0: the two are at least as far from each other.
   double deepest[lanes];
-  double energy[lanes];   // J
+
+  void set(int lane, const std::array<int, 4>& a, const std::array<int, 4>& b) {
+    for (int k = 0; k < 4; ++k) {
+      node[k][lane] = a[k];
+      node[4 + k][lane] = b[k];
+    }
+  }
+};
+
+struct TetPairPress {
+  TetPairView of;
+  double phi0[lanes];        // m
+  double stiffness[lanes];   // N/m
+  double energy[lanes];      // J
   double force[8][3][lanes]; // N
+
+  std::array<double, 3> at(int corner, int lane) const {
+    return {force[corner][0][lane], force[corner][1][lane], force[corner][2][lane]};
+  }
 };
 
 // place: m, of nodes (x, y, z). The first writes into `deepest` what a plane of one of the two parts them by, times -1: it costs
 // less, and tells nothing of those that overlap.
-void find_parted(const Node* place, TetPairBatch* batches, std::int64_t count);
-void find_deepest(const Node* place, TetPairBatch* batches, std::int64_t count);
-void press_pairs(const Node* place, TetPairBatch* batches, std::int64_t count);
+void find_parted(const Node* place, TetPairView*, std::int64_t count);
+void find_deepest(const Node* place, TetPairView*, std::int64_t count);
+void press_pairs(const Node* place, TetPairPress*, std::int64_t count);
 
 } // namespace cdem
