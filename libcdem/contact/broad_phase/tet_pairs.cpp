@@ -1,5 +1,6 @@
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
 
+#include "libcdem/contact/broad_phase/tet_paths.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/data/tet_contacts.hpp"
 #include "libcdem/contact/response/tet_potential.hpp"
@@ -105,7 +106,10 @@ void add_tets(const Model& model, const ContactWork& work, int block, TetContact
       to.tets.push_back(
           {tet, block, model.tets[tet], tet_size(model, tet), at_surface[tet - b.tet_begin] != 0});
       to.nodes.insert(to.nodes.end(), model.tets[tet].begin(), model.tets[tet].end());
+      for (int k = 0; k < 4; ++k)
+        to.corner[k].push_back(model.tets[tet][k]);
     }
+  to.tets_begin.push_back(static_cast<int>(to.tets.size()));
   std::sort(to.nodes.begin() + first, to.nodes.end());
   to.nodes.erase(std::unique(to.nodes.begin() + first, to.nodes.end()), to.nodes.end());
   to.nodes_begin.push_back(static_cast<int>(to.nodes.size()));
@@ -128,20 +132,21 @@ void add_near(const Model& model, const std::vector<TetPair>& pairs, TetContacts
       const auto& [a, b] = pairs[begin + std::min(i, count - 1)];
       views[i / lanes].set(static_cast<int>(i % lanes), to.tets[a].nodes, to.tets[b].nodes);
     }
-    find_parted(to.place.data(), views.data(), static_cast<std::int64_t>(full));
+    bound_deepest(to.place.data(), views.data(), static_cast<std::int64_t>(full));
     for (std::size_t i = 0; i < count; ++i) {
       const double apart = -views[i / lanes].deepest[i % lanes];
       if (apart > 2 * to.skin)
         continue;
       const auto& [a, b] = pairs[begin + i];
       const SurfaceTet &one = to.tets[a], &other = to.tets[b];
-      to.a.push_back(a);
-      to.b.push_back(b);
+      to.pairs.a.push_back(a);
+      to.pairs.b.push_back(b);
       to.slack.push_back(
           had_a_node_in_common(model, one, other)
               ? static_cast<float>(slack_ratio * std::min(one.size.height, other.size.height))
               : 0);
-      to.until.push_back(may_touch(to, one, other) ? rounded_down(apart) : TetContacts::never);
+      to.pairs.allowed.push_back(rounded_down(apart));
+      to.may_touch.push_back(static_cast<char>(may_touch(to, one, other)));
     }
   }
 }
@@ -150,9 +155,9 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
   auto found = std::make_shared<TetContacts>();
   TetContacts& to = *found;
   to.place.resize(model.node_position.size());
-  to.way.resize(model.node_position.size());
   to.number.assign(model.tets.size(), -1);
   to.nodes_begin.push_back(0);
+  to.tets_begin.push_back(0);
   to.skin = std::numeric_limits<double>::infinity();
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
     if (touches_itself(model, work, block)) {
@@ -160,11 +165,9 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
       to.skin = std::min(to.skin, skin_ratio * model.surface.usual_height[block]);
     }
   set_places(model, state, to);
-  to.place_at_first = to.place;
-  to.path.assign(to.tets.size(), 0.0);
+  to.paths.assign(to.tets.size());
+  to.path_then.assign(to.tets.size(), 0.0);
   to.limit.assign(to.tets.size(), -1.0);
-  to.moved.resize(to.tets.size());
-  to.moved_at.assign(to.tets.size(), -1);
   to.joint = joints_of(model, state, work);
   to.held = held_by_faces(model, state, work);
   std::vector<geom::Box> boxes(to.tets.size());
@@ -182,7 +185,8 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
                                }),
                 pairs.end());
   add_near(model, pairs, to);
-  to.motion.resize(to.a.size());
+  for (std::vector<float>& then : to.pairs.then)
+    then.assign(to.pairs.count(), 0.0F);
   work.tet_contacts = std::move(found);
 }
 
@@ -222,67 +226,72 @@ bool told_anew(const Model& model, const State& state, ContactWork& work) {
       changed[t] = static_cast<char>(changed[t] != 0 || joint[node] != of.joint[node]);
   std::swap(of.joint, joint);
   std::swap(of.held, held);
-  for (std::size_t p = 0; p < of.a.size(); ++p) {
-    const int a = of.a[p], b = of.b[p];
+  for (std::size_t p = 0; p < of.pairs.count(); ++p) {
+    const int a = of.pairs.a[p], b = of.pairs.b[p];
     if (!changed[a] && !changed[b])
       continue;
-    const bool free = may_touch(of, of.tets[a], of.tets[b]), was = of.until[p] < TetContacts::never;
-    if (free == was)
+    const bool free = may_touch(of, of.tets[a], of.tets[b]);
+    if (free == (of.may_touch[p] != 0))
       continue;
-    of.until[p] = free ? 0 : TetContacts::never;
-    of.motion[p] = {};
+    of.may_touch[p] = static_cast<char>(free);
+    of.pairs.allowed[p] = 0;
     of.fresh = true;
   }
   std::fill(of.limit.begin(), of.limit.end(), -1.0);
   return true;
 }
 
+// m, that a pair may still go, at least, by the paths of both.
+double left_by_paths(const TetContacts& of, std::size_t p) {
+  const int a = of.pairs.a[p], b = of.pairs.b[p];
+  double past2 = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double past = of.paths.drift[axis][b] - of.paths.drift[axis][a] - of.pairs.then[axis][p];
+    past2 += past * past;
+  }
+  return of.pairs.allowed[p] - std::sqrt(past2) - (of.paths.swing[a] + of.paths.swing[b] - of.pairs.then[3][p]);
+}
+
 void find_near(const ContactWork& work, TetContacts& of) {
-  const auto way_of = [&](std::size_t t) {
-    const geom::Tet& n = of.tets[t].nodes;
-    return std::max(std::max(of.way[n[0]], of.way[n[1]]), std::max(of.way[n[2]], of.way[n[3]]));
-  };
+  const double steps = static_cast<double>(std::max<std::int64_t>(1, of.steps - of.steps_then));
+  const auto way = [&](std::size_t t) { return (of.paths.path[t] - of.path_then[t]) / steps; }; // m in a step
   double mean = 0;
   for (std::size_t t = 0; t < of.tets.size(); ++t)
-    mean += way_of(t) / static_cast<double>(of.tets.size());
+    mean += way(t) / static_cast<double>(of.tets.size());
   mean = std::max(mean, 1e-4 * of.skin);
-  for (std::size_t t = 0; t < of.tets.size(); ++t)
-    of.limit[t] = of.path[t] + steps_near * std::max(mean, way_of(t));
-  of.near.clear();
-  of.near_a.clear();
-  of.near_b.clear();
-  of.near_until.clear();
-  for (std::size_t p = 0; p < of.a.size(); ++p) {
-    const int a = of.a[p], b = of.b[p];
-    if (!(of.until[p] <= of.limit[a] + of.limit[b]) &&
-        !(work.looks_at_all && of.until[p] < TetContacts::never))
-      continue;
-    of.near.push_back(static_cast<int>(p));
-    of.near_a.push_back(a);
-    of.near_b.push_back(b);
-    of.near_until.push_back(of.until[p]);
+  std::vector<double> margin(of.tets.size()); // m
+  for (std::size_t t = 0; t < of.tets.size(); ++t) {
+    margin[t] = steps_near * std::max(mean, way(t));
+    of.limit[t] = of.paths.path[t] + margin[t];
   }
-  of.awake.assign((of.near.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk, 0);
+  of.path_then = of.paths.path;
+  of.steps_then = of.steps;
+  of.near.clear();
+  of.place_of_near.clear();
+  constexpr double twice = 2; // the middle and the corners of a tetrahedron go no further than its path, each
+  for (std::size_t p = 0; p < of.pairs.count(); ++p) {
+    const int a = of.pairs.a[p], b = of.pairs.b[p];
+    if (!of.may_touch[p] || (!work.looks_at_all && left_by_paths(of, p) > 2 * twice * (margin[a] + margin[b])))
+      continue;
+    of.place_of_near.push_back(static_cast<int>(p));
+    of.near.a.push_back(a);
+    of.near.b.push_back(b);
+    for (int i = 0; i < 4; ++i)
+      of.near.then[i].push_back(of.pairs.then[i][p]);
+    of.near.allowed.push_back(of.pairs.allowed[p]);
+  }
 }
 
 // Writes where the nodes are and how far the tetrahedra have gone in the step.
 void move(const Model& model, const State& state, const ContactWork& work, TetContacts& of) {
   set_places(model, state, of);
   for (std::size_t block = 0; block + 1 < of.nodes_begin.size(); ++block) {
-    const auto begin = of.nodes.begin() + of.nodes_begin[block],
-               end = of.nodes.begin() + of.nodes_begin[block + 1];
     geom::Vec3 mean = geom::Vec3::Zero(); // m/s
-    for (auto node = begin; node != end; ++node)
-      mean += velocity_of(state, *node);
-    mean /= std::max<double>(1, static_cast<double>(end - begin));
-    for (auto node = begin; node != end; ++node)
-      of.way[*node] = work.step * (velocity_of(state, *node) - mean).norm();
-  }
-  constexpr double rounding = 1 + 1e-6;
-  for (std::size_t t = 0; t < of.tets.size(); ++t) {
-    const geom::Tet& n = of.tets[t].nodes;
-    of.path[t] +=
-        rounding * std::max(std::max(of.way[n[0]], of.way[n[1]]), std::max(of.way[n[2]], of.way[n[3]]));
+    for (int i = of.nodes_begin[block]; i < of.nodes_begin[block + 1]; ++i)
+      mean += velocity_of(state, of.nodes[i]);
+    mean /= std::max(1, of.nodes_begin[block + 1] - of.nodes_begin[block]);
+    add_step(state.velocity.data(), {mean.x(), mean.y(), mean.z(), 0}, work.step, of.corner,
+             of.tets_begin[block], of.tets_begin[block + 1], of.paths);
   }
   ++of.steps;
 }
@@ -310,12 +319,12 @@ void find_tet_pairs(const Model& model, const State& state, ContactWork& work, b
     return;
   move(model, state, work, *work.tet_contacts);
   const TetContacts& before = *work.tet_contacts;
-  const bool left = std::any_of(before.path.begin(), before.path.end(),
+  const bool left = std::any_of(before.paths.path.begin(), before.paths.path.end(),
                                 [&](double path) { return path > before.skin; });
   if (left || (told && !told_anew(model, state, work)))
     find_anew(model, state, work);
   TetContacts& of = *work.tet_contacts;
-  if (any_beyond(of.path, of.limit))
+  if (any_beyond(of.paths.path, of.limit))
     find_near(work, of);
 }
 

@@ -6,6 +6,7 @@
 // What is skipped changes no force.
 #pragma once
 
+#include "libcdem/contact/broad_phase/tet_paths.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/parallel/node.hpp"
 
@@ -23,49 +24,31 @@ struct SurfaceTet {
   bool at_surface = false; // one of its nodes is
 };
 
-// How far a tetrahedron has moved as a whole since the pairs were found, and the most that a corner differs from that, m.
-struct TetMotion {
-  std::array<float, 3> drift{};
-  float swing = 0;
-};
-
-// How two tetrahedra stood to each other when they were last looked at, and how far they may go past each other from there.
-struct TetPairMotion {
-  std::array<float, 3> drift{}; // m, of the second past the first
-  float swings = 0;             // m, of both
-  float allowed = 0;            // m; 0: they touch, or have not been looked at
-};
-
 struct TetContacts {
-  static constexpr float never = std::numeric_limits<float>::infinity();
-
   std::vector<SurfaceTet> tets; // of blocks that touch themselves, ascending
   std::vector<int> number;      // per tetrahedron of the model: in `tets`; -1: not there
   std::vector<int> nodes;       // of them, ascending within each block
   std::vector<int> nodes_begin; // by block that touches itself, into nodes
-  std::vector<Node> place, place_at_first; // m, (n_nodes), of those nodes: now, and when the pairs were found
-  std::vector<double> way;                 // m, (n_nodes), of them in the last step, past the mean of their block
-  std::vector<double> path;                // m, per tetrahedron: the sum of the longest way of its nodes
+  std::vector<Node> place;      // m, (n_nodes), of those nodes
+  std::array<std::vector<int>, 4> corner;  // nodes of the tetrahedra
+  std::vector<int> tets_begin;             // by block that touches itself, into tets
+  TetPaths paths;                          // of the tetrahedra
   std::vector<int> joint;                  // (n_nodes), the smallest node of the joint
   std::vector<std::pair<int, int>> held;   // tetrahedra whose common face is broken and held by its own springs
   double skin = 0;                         // m, how far any may go before the pairs are found anew
 
   // Pairs, into `tets`, a < b; by a, then b.
-  std::vector<int> a, b;
   std::vector<float> slack; // m, overlap at which a pair begins to press
-  std::vector<float> until; // m, of the paths of both: it is skipped so long; never: they may not touch
-  std::vector<TetPairMotion> motion;
+  WatchedPairs pairs;
+  std::vector<char> may_touch;
   bool fresh = true; // some pairs may not touch any more: their contacts have ended
 
-  // Pairs that may wake before any tetrahedron has gone as far as its `limit`.
-  std::vector<int> near, near_a, near_b;
-  std::vector<float> near_until;
-  std::vector<double> limit;        // m, of path
+  // Pairs that may wake before the path of any tetrahedron reaches its `limit`.
+  WatchedPairs near;
+  std::vector<int> place_of_near;       // of each in `pairs`
+  std::vector<double> limit, path_then; // m; what the paths were when they were found
+  std::int64_t steps = 0, steps_then = 0;
   std::vector<std::uint64_t> awake; // a bit per near pair
-
-  std::vector<TetMotion> moved;        // per tetrahedron
-  std::vector<std::int64_t> moved_at;  // per tetrahedron: the step in which `moved` was found
-  std::int64_t steps = 0;
 };
 
 // What a pair did in a step.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace cdem {
 namespace {
@@ -31,96 +32,29 @@ struct Question {
   std::vector<std::pair<std::size_t, const Contact*>> asleep; // before which of `asked`
 };
 
-TetMotion motion_of(const TetContacts& of, int t) {
-  const geom::Tet& nodes = of.tets[t].nodes;
-  std::array<geom::Vec3, 4> gone; // m
-  geom::Vec3 mean = geom::Vec3::Zero();
-  for (int k = 0; k < 4; ++k) {
-    const Node &now = of.place[nodes[k]], &then = of.place_at_first[nodes[k]];
-    gone[k] = {now.x - then.x, now.y - then.y, now.z - then.z};
-    mean += 0.25 * gone[k];
-  }
-  double swing2 = 0;
-  for (const geom::Vec3& here : gone)
-    swing2 = std::max(swing2, (here - mean).squaredNorm());
-  TetMotion motion;
-  for (int axis = 0; axis < 3; ++axis)
-    motion.drift[axis] = static_cast<float>(mean[axis]);
-  motion.swing = static_cast<float>(std::sqrt(swing2));
-  return motion;
-}
-
-const TetMotion& moved(TetContacts& of, int t) {
-  if (of.moved_at[t] != of.steps) {
-    of.moved[t] = motion_of(of, t);
-    of.moved_at[t] = of.steps;
-  }
-  return of.moved[t];
-}
-
-// m, that two tetrahedra may still go past each other; the paths of both say less of those that move together.
-double still_allowed(TetContacts& of, std::size_t p) {
-  const TetPairMotion& then = of.motion[p];
-  constexpr float rounding = 1e-6F; // of lengths kept as floats
-  const TetMotion &a = moved(of, of.a[p]), &b = moved(of, of.b[p]);
-  float past2 = 0, size = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float past = b.drift[axis] - a.drift[axis] - then.drift[axis];
-    past2 += past * past;
-    size += std::abs(a.drift[axis]) + std::abs(b.drift[axis]) + std::abs(then.drift[axis]);
-  }
-  return then.allowed - (std::sqrt(past2) + a.swing + b.swing + then.swings + rounding * size);
-}
-
-void sleep_until(TetContacts& of, std::size_t near, double until) {
-  of.until[of.near[near]] = of.near_until[near] = rounded_down(until);
-}
-
 // allowed: m, that the two may go past each other before they are looked at again.
 void fall_asleep(TetContacts& of, std::size_t near, double allowed) {
-  const auto p = static_cast<std::size_t>(of.near[near]);
-  of.motion[p] = {};
-  if (!(allowed > 0)) {
-    sleep_until(of, near, 0);
-    return;
-  }
-  const TetMotion &a = moved(of, of.a[p]), &b = moved(of, of.b[p]);
-  for (int axis = 0; axis < 3; ++axis)
-    of.motion[p].drift[axis] = b.drift[axis] - a.drift[axis];
-  of.motion[p].swings = a.swing + b.swing;
-  of.motion[p].allowed = rounded_down(allowed);
-  sleep_until(of, near, of.path[of.a[p]] + of.path[of.b[p]] + allowed);
-}
-
-// Whether the pair sleeps on.
-bool sleeps_on(TetContacts& of, std::size_t near) {
-  constexpr double worth_while = 0.05; // of what it was allowed
-  const auto p = static_cast<std::size_t>(of.near[near]);
-  if (!(of.motion[p].allowed > 0))
-    return false;
-  const double left = still_allowed(of, p);
-  if (left < worth_while * of.motion[p].allowed)
-    return false;
-  sleep_until(of, near, of.path[of.a[p]] + of.path[of.b[p]] + left);
-  return true;
+  const float may_go = rounded_down(allowed);
+  const auto p = static_cast<std::size_t>(of.place_of_near[near]);
+  of.near.set(near, of.paths, may_go);
+  of.pairs.set(p, of.paths, may_go);
 }
 
 // Whether the pair of an old contact may touch.
 bool is_pair(const TetContacts& of, const Contact& c) {
   const int a = of.number[c.source], b = of.number[c.target];
-  const auto begin = std::lower_bound(of.a.begin(), of.a.end(), a) - of.a.begin(),
-             end = std::upper_bound(of.a.begin(), of.a.end(), a) - of.a.begin();
-  const auto found = std::lower_bound(of.b.begin() + begin, of.b.begin() + end, b);
-  return a >= 0 && b >= 0 && found != of.b.begin() + end && *found == b &&
-         of.until[found - of.b.begin()] < TetContacts::never;
+  const std::vector<int>&as = of.pairs.a, &bs = of.pairs.b;
+  const auto begin = std::lower_bound(as.begin(), as.end(), a) - as.begin(),
+             end = std::upper_bound(as.begin(), as.end(), a) - as.begin();
+  const auto found = std::lower_bound(bs.begin() + begin, bs.begin() + end, b);
+  return a >= 0 && b >= 0 && found != bs.begin() + end && *found == b && of.may_touch[found - bs.begin()];
 }
 
 Question question_of(const State& state, ContactWork& work) {
   TetContacts& of = *work.tet_contacts;
-  find_awake(of.path.data(), of.near_until.data(), of.near_a.data(), of.near_b.data(), of.near.size(),
-             of.awake.data());
+  find_awake(of.paths, of.near, of.awake);
   if (work.looks_at_all)
-    for (std::size_t i = 0; i < of.near.size(); ++i)
+    for (std::size_t i = 0; i < of.near.count(); ++i)
       of.awake[i / contact_rows_per_chunk] |= std::uint64_t{1} << (i % contact_rows_per_chunk);
   Question question;
   auto old = std::partition_point(state.contacts.begin(), state.contacts.end(),
@@ -136,9 +70,7 @@ Question question_of(const State& state, ContactWork& work) {
   for (std::size_t word = 0; word < of.awake.size(); ++word)
     for (std::uint64_t bits = of.awake[word]; bits != 0; bits &= bits - 1) {
       const std::size_t near = word * contact_rows_per_chunk + static_cast<std::size_t>(__builtin_ctzll(bits));
-      if (!work.looks_at_all && sleeps_on(of, near))
-        continue;
-      const std::pair<int, int> tets(of.tets[of.near_a[near]].tet, of.tets[of.near_b[near]].tet);
+      const std::pair<int, int> tets(of.tets[of.near.a[near]].tet, of.tets[of.near.b[near]].tet);
       keep_before(tets);
       Asked asked{near};
       if (old != state.contacts.end() && tets_of(*old) == tets)
@@ -164,22 +96,26 @@ public:
     std::vector<std::size_t> pressed, others, meet, come;
     for (std::size_t i = 0; i < count; ++i) {
       const Contact* const before = asked_[i].before;
-      phi0_[i] = before ? before->reference_penetration : of_.slack[of_.near[asked_[i].near]];
+      phi0_[i] = before ? before->reference_penetration : slack_of(i);
       (before && before->effective_penetration() > 0 ? pressed : others).push_back(i);
     }
     press(pressed);
     for (const std::size_t i : pressed)
       if (!(energy(i) > 0))
         others.push_back(i);
-    look(others, find_parted);
+    look(others, bound_deepest);
+    // What is known is that they overlap by no more than this: often that is enough.
     for (const std::size_t i : others)
-      if (deepest_[i] >= 0)
+      if (deepest_[i] > trusted * slack_of(i))
         meet.push_back(i);
     look(meet, find_deepest);
     for (const std::size_t i : meet)
       if (deepest_[i] > phi0_[i])
         come.push_back(i);
     press(come);
+    out_.forces.reserve(pressed.size() + come.size());
+    out_.contacts.reserve(pressed.size() + come.size());
+    allowed_.reserve(count);
     auto asleep = std::partition_point(question.asleep.begin(), question.asleep.end(),
                                        [&](const auto& one) { return one.first < begin; });
     for (std::size_t i = 0; i < count; ++i) {
@@ -192,31 +128,33 @@ public:
         out_.contacts.push_back(*asleep->second);
   }
 
-  // What all pairs that slept have to say, one by one: threads may not share a tetrahedron's motion.
+  // m, that each of the pairs may go before it is looked at again.
   const std::vector<double>& allowed() const { return allowed_; }
 
 private:
-  const SurfaceTet& first(std::size_t i) const { return of_.tets[of_.near_a[asked_[i].near]]; }
-  const SurfaceTet& second(std::size_t i) const { return of_.tets[of_.near_b[asked_[i].near]]; }
+  const SurfaceTet& first(std::size_t i) const { return of_.tets[of_.near.a[asked_[i].near]]; }
+  const SurfaceTet& second(std::size_t i) const { return of_.tets[of_.near.b[asked_[i].near]]; }
+  double slack_of(std::size_t i) const { return of_.slack[of_.place_of_near[asked_[i].near]]; } // m
   double energy(std::size_t i) const {
     return result_[i].first >= 0 ? batches_[result_[i].first].energy[result_[i].second] : 0;
   }
 
   template <class Kernel>
   void look(const std::vector<std::size_t>& at, const Kernel& kernel) {
-    std::vector<TetPairView> views((at.size() + lanes - 1) / lanes);
-    for (std::size_t k = 0; k < lanes * views.size(); ++k) {
+    const std::size_t full = (at.size() + lanes - 1) / lanes;
+    std::array<TetPairView, pairs_per_chunk / lanes> views;
+    for (std::size_t k = 0; k < lanes * full; ++k) {
       const std::size_t i = at[std::min(k, at.size() - 1)];
       views[k / lanes].set(static_cast<int>(k % lanes), first(i).nodes, second(i).nodes);
     }
-    kernel(of_.place.data(), views.data(), static_cast<std::int64_t>(views.size()));
+    kernel(of_.place.data(), views.data(), static_cast<std::int64_t>(full));
     for (std::size_t k = 0; k < at.size(); ++k)
       deepest_[at[k]] = views[k / lanes].deepest[k % lanes];
   }
 
   void press(const std::vector<std::size_t>& at) {
-    const std::size_t before = batches_.size(), more = (at.size() + lanes - 1) / lanes;
-    batches_.resize(before + more);
+    const std::size_t before = n_batches_, more = (at.size() + lanes - 1) / lanes;
+    n_batches_ += more;
     for (std::size_t k = 0; k < lanes * more; ++k) {
       const std::size_t i = at[std::min(k, at.size() - 1)];
       TetPairPress& batch = batches_[before + k / lanes];
@@ -226,7 +164,7 @@ private:
       batch.stiffness[lane] = law_of(i).corner;
       result_[i] = {static_cast<int>(before + k / lanes), lane};
     }
-    press_pairs(of_.place.data(), batches_.data() + before, static_cast<std::int64_t>(more));
+    press_pairs(of_.place.data(), batches_.get() + before, static_cast<std::int64_t>(more));
   }
 
   TetPairLaw law_of(std::size_t i) {
@@ -242,7 +180,7 @@ private:
   void finish(std::size_t i) {
     const SurfaceTet &a = first(i), &b = second(i);
     const Contact* const before = asked_[i].before;
-    const double slack = of_.slack[of_.near[asked_[i].near]];
+    const double slack = slack_of(i);
     Contact c(Contact::tets, a.tet);
     c.target = c.fragment = b.tet;
     if (before)
@@ -293,7 +231,8 @@ private:
       for (int k = 0; k < 8; ++k) {
         weight[k] = corner[k].dot(normal) / force;
         velocity += weight[k] * velocity_of(of.state_, node[k]);
-        compliance += weight[k] * weight[k] / moving_mass(of.model_, of.state_)[node[k]];
+        if (of.work_.restitution)
+          compliance += weight[k] * weight[k] / moving_mass(of.model_, of.state_)[node[k]];
       }
       slid = of.work_.step * velocity;
     }
@@ -361,7 +300,9 @@ private:
   const TetContacts& of_;
   TetChunk& out_;
   const Asked* asked_ = nullptr;
-  std::vector<TetPairPress> batches_;
+  // Each pair presses twice at most. Not set to 0: that would cost as much as what is written.
+  std::unique_ptr<TetPairPress[]> batches_{new TetPairPress[2 * pairs_per_chunk / lanes]};
+  std::size_t n_batches_ = 0;
   std::vector<std::pair<int, int>> result_; // batch and lane of the force; -1: none was asked for
   std::vector<double> phi0_, deepest_, allowed_; // m
   int block_ = -1;                               // whose law is known

@@ -17,9 +17,10 @@ CDEM_INLINE void deepest_kernel(const Node* place, TetPairView* views, std::int6
     for (int lane = 0; lane < lanes; lane += simd::width<V>) {
       const TetCorners<V> a = corners<V>(place, views[i], 0, lane), b = corners<V>(place, views[i], 1, lane);
       const DepthsInTet<V> in_a = depths_in_tet<V>(a, b), in_b = depths_in_tet<V>(b, a);
-      const V apart = simd::most<V>(parted_by_plane<V>(in_a), parted_by_plane<V>(in_b));
-      V deepest = -apart;
-      if (exactly && simd::any(apart <= V{}))
+      // A plane that parts them tells of both, an edge only of its own tetrahedron.
+      const V by_plane = -simd::most<V>(parted_by_plane<V>(in_a), parted_by_plane<V>(in_b));
+      V deepest = simd::least<V>(by_plane, simd::most<V>(no_deeper_than<V>(in_a), no_deeper_than<V>(in_b)));
+      if (exactly && simd::any(by_plane >= V{}))
         deepest = simd::most<V>(deepest_in_tet<V>(in_a), deepest_in_tet<V>(in_b));
       simd::store_wide<V>(views[i].deepest + lane, deepest);
     }
@@ -49,7 +50,7 @@ CDEM_INLINE void press_kernel(const Node* place, TetPairPress* batches, std::int
 
 } // namespace
 
-void find_parted(const Node* place, TetPairView* views, std::int64_t count) {
+void bound_deepest(const Node* place, TetPairView* views, std::int64_t count) {
   simd::best_width<deepest_kernel<simd::Oct, false>, deepest_kernel<simd::Quad, false>>(place, views, count);
 }
 

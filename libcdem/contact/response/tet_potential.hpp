@@ -81,6 +81,20 @@ CDEM_INLINE V parted_by_plane(const DepthsInTet<V>& at) {
   return apart;
 }
 
+// m, that no corner and no edge of the source is deeper than.
+template <class V>
+CDEM_INLINE V no_deeper_than(const DepthsInTet<V>& at) {
+  const auto& d = at.depth;
+  V deepest = V{} - 1e300;
+  for (const auto& [p, q] : edges_of_tet) {
+    V on_edge = simd::most<V>(d[0][p], d[0][q]);
+    for (int k = 1; k < 4; ++k)
+      on_edge = simd::least<V>(on_edge, simd::most<V>(d[k][p], d[k][q]));
+    deepest = simd::most<V>(deepest, on_edge);
+  }
+  return simd::least<V>(deepest, -parted_by_plane<V>(at));
+}
+
 // m, the largest min over k of D_k on the corners and edges of the source; below 0: as far, at least, they all stand outside.
 template <class V>
 CDEM_INLINE V deepest_in_tet(const DepthsInTet<V>& at) {
@@ -226,9 +240,8 @@ struct TetPairPress {
   }
 };
 
-// place: m, of nodes (x, y, z). The first writes into `deepest` what a plane of one of the two parts them by, times -1: it costs
-// less, and tells nothing of those that overlap.
-void find_parted(const Node* place, TetPairView*, std::int64_t count);
+// place: m, of nodes (x, y, z). The first writes into `deepest` what is at least as large, and costs less.
+void bound_deepest(const Node* place, TetPairView*, std::int64_t count);
 void find_deepest(const Node* place, TetPairView*, std::int64_t count);
 void press_pairs(const Node* place, TetPairPress*, std::int64_t count);
 
