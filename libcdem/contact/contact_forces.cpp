@@ -145,8 +145,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     for (std::int64_t i = 0; i < count; ++i)
       found.add(own.chunks[i], first + i < n_springs ? Contact::spring : Contact::edge);
   }
-  for (const TetChunk& chunk : press_tets(model, state, own, threads))
-    found.add(chunk);
+  found.add(press_tets(model, state, own, threads));
   sums = found.end();
   own.due = false;
   own.step = 0;

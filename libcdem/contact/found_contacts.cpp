@@ -34,6 +34,18 @@ void add_depths(const ContactSums& more, ContactSums& sums) {
         std::tuple(more.deepest, more.deepest_source, more.deepest_target);
 }
 
+// One at a corner of the tetrahedron; of its block, where it has none.
+int triangle_beside(const Model& model, int tet) {
+  const ContactSurface& s = model.surface;
+  const geom::Tet& nodes = model.tets[tet];
+  const int block = model.tet_block[tet];
+  for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
+    if (std::find_first_of(s.triangles[t].nodes.begin(), s.triangles[t].nodes.end(), nodes.begin(),
+                           nodes.end()) != s.triangles[t].nodes.end())
+      return t;
+  return s.block_begin[block];
+}
+
 bool stands_before(const Contact& a, const Contact& b) {
   return key(a) < key(b);
 }
@@ -69,16 +81,33 @@ void FoundContacts::add(const ContactChunk& found, Contact::Kind kind) {
     add(found.contacts[i], found.forces[i], kind);
 }
 
-void FoundContacts::add(const TetChunk& found) {
-  friction_.add(found.friction);
-  damping_.add(found.damping);
-  sums_.depth = std::max(sums_.depth, found.depth);
-  sums_.depth_over_height = std::max(sums_.depth_over_height, found.depth_over_height);
-  sums_.contacts += static_cast<std::int64_t>(found.forces.size());
-  work_.now.insert(work_.now.end(), found.contacts.begin(), found.contacts.end());
-  for (const TetPairForce& force : found.forces)
-    for (int k = 0; k < 8; ++k)
-      add_at_node(force.node[k], force.block, force.force[k], force.stiffness[k]);
+void FoundContacts::add(std::vector<TetChunk> found) {
+  tets_ = std::move(found);
+  const bool counts = !work_.shared || work_.shared->part().rank == 0; // else another rank does
+  for (const TetChunk& chunk : tets_) {
+    sums_.depth = std::max(sums_.depth, chunk.depth);
+    sums_.depth_over_height = std::max(sums_.depth_over_height, chunk.depth_over_height);
+    if (const double part = chunk.depth_over_height / depth_ratio; part > 1 && part > sums_.deepest) {
+      sums_.deepest = part;
+      sums_.deepest_source = triangle_beside(model_, chunk.deepest[0]);
+      sums_.deepest_target = triangle_beside(model_, chunk.deepest[1]);
+    }
+    if (!counts)
+      continue;
+    friction_.add(chunk.friction);
+    damping_.add(chunk.damping);
+    sums_.contacts += static_cast<std::int64_t>(chunk.forces.size());
+  }
+}
+
+// After all others, as they stand in State.
+void FoundContacts::add_tets() {
+  for (const TetChunk& chunk : tets_) {
+    work_.now.insert(work_.now.end(), chunk.contacts.begin(), chunk.contacts.end());
+    for (const TetPairForce& force : chunk.forces)
+      for (int k = 0; k < 8; ++k)
+        add_at_node(force.node[k], force.block, force.force[k], force.stiffness[k]);
+  }
 }
 
 void FoundContacts::add(const Contact& contact, const ContactForce& force, Contact::Kind kind) {
@@ -264,6 +293,7 @@ ContactSums FoundContacts::end() {
   add_losses();
   if (work_.shared)
     exchange();
+  add_tets();
   set_values();
   assert(std::is_sorted(work_.now.begin(), work_.now.end(), stands_before));
   if (work_.now.capacity() > 2 * work_.now.size() + 64)

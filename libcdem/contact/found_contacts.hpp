@@ -17,7 +17,8 @@ public:
 
   // Found by this rank: first all springs, then edges, in the order of their rows, then pairs of tetrahedra.
   void add(const ContactChunk&, Contact::Kind);
-  void add(const TetChunk&);
+  // Found by all ranks alike.
+  void add(std::vector<TetChunk>);
 
   // Tells the other ranks, and puts the contacts into State.
   ContactSums end();
@@ -29,6 +30,7 @@ private:
   void add_on_rigid(const ContactForce&);
   RigidSums& touched(int rigid);
   void add_losses();
+  void add_tets();
   void exchange();
   void set_values();
 
@@ -36,7 +38,8 @@ private:
   State& state_;
   ContactWork& work_;
   ContactSums sums_;
-  ExactSum friction_, damping_;  // J
+  ExactSum friction_, damping_; // J
+  std::vector<TetChunk> tets_;
   std::array<std::vector<ContactForce>, 2>
       told_; // to all ranks: of what deforms, per kind, in the order of rows
 };

@@ -214,15 +214,39 @@ private:
     }
   }
 
+  void carry_contact_of_tets(Contact c, const std::vector<int>& new_tet) {
+    int a = static_cast<int>(c.source), b = c.target;
+    if (!new_tet.empty()) {
+      a = new_tet[a];
+      b = new_tet[b];
+    }
+    if (a < 0 || b < 0)
+      return;
+    if (a > b) { // the lower one is the source
+      std::swap(a, b);
+      c.normal = -c.normal;
+      c.shear = -c.shear;
+    }
+    c.source = static_cast<std::uint32_t>(a) & 0x3fffffffu;
+    c.target = c.fragment = b;
+    to_.contacts.push_back(c);
+  }
+
   void carry_contacts() {
     if (!map_.new_triangle || from_.contacts.empty())
       return;
     const std::vector<int> pieces = map_.fragments_of_nodes(now_, to_);
+    std::vector<int> new_tet; // by the old number; none: all stay
+    if (map_.tet) {
+      new_tet.assign(old_.tets.size(), -1);
+      for (std::size_t t = 0; t < map_.tet->size(); ++t)
+        if ((*map_.tet)[t] >= 0)
+          new_tet[(*map_.tet)[t]] = static_cast<int>(t);
+    }
     const auto now = [&](int triangle) { return (*map_.new_triangle)[triangle]; };
     for (Contact c : from_.contacts) {
-      if (c.kind == Contact::tets) { // they keep their numbers where nodes are freed
-        if (!map_.tet)
-          to_.contacts.push_back(c);
+      if (c.kind == Contact::tets) {
+        carry_contact_of_tets(c, new_tet);
         continue;
       }
       const bool edge = c.kind == Contact::edge;

@@ -27,11 +27,6 @@ constexpr int rings_below = 2;
 // Steps for which pairs are near.
 constexpr double steps_near = 30;
 
-bool touches_itself(const Model& model, const ContactWork& work, int block) {
-  const Block& b = model.blocks[block];
-  return work.broken[block] && b.meshed && !b.star() && b.rigid < 0 && contact_joint(model, block, block);
-}
-
 std::vector<int> joints_of(const Model& model, const State& state, const ContactWork& work) {
   geom::DisjointSets sets(model.node_position.size());
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
@@ -304,6 +299,11 @@ bool any_beyond(const std::vector<double>& path, const std::vector<double>& limi
 }
 
 } // namespace
+
+bool touches_itself(const Model& model, const ContactWork& work, int block) {
+  const Block& b = model.blocks[block];
+  return work.broken[block] && b.meshed && !b.star() && b.rigid < 0 && contact_joint(model, block, block);
+}
 
 void find_tet_pairs(const Model& model, const State& state, ContactWork& work, bool told) {
   if (told) {

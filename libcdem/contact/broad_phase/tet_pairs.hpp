@@ -6,6 +6,9 @@
 
 namespace cdem {
 
+// Whether contact within the block goes by pairs of its tetrahedra: faces of it have broken.
+bool touches_itself(const Model&, const ContactWork&, int block);
+
 // Writes ContactWork::tet_contacts, null where no block touches itself with broken faces. told: contact has just been told of
 // bonds, and has found fragments.
 void find_tet_pairs(const Model&, const State&, ContactWork&, bool told);

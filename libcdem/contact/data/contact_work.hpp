@@ -34,6 +34,8 @@ inline constexpr std::int64_t contact_rows_per_chunk = 64;
 // Depth over the usual height of a tet at a block's surface: around a deeper contact all pairs are computed in every
 // step.
 inline constexpr double shallow_ratio = 0.01;
+// Largest depth of a contact, over the height of a tet.
+inline constexpr double depth_ratio = 0.25;
 
 struct ContactCandidate {
   std::uint32_t target : 29; // triangle or edge

@@ -271,7 +271,10 @@ private:
     out_.forces.push_back(at);
     out_.contacts.push_back(c);
     out_.depth = std::max(out_.depth, pressed);
-    out_.depth_over_height = std::max(out_.depth_over_height, pressed / height);
+    if (pressed / height > out_.depth_over_height) {
+      out_.depth_over_height = pressed / height;
+      out_.deepest = {static_cast<int>(c.source), c.target};
+    }
   }
 
   // As for semi-springs: by the speed that the contact's own force can turn round in a step.

@@ -21,7 +21,8 @@ struct TetChunk {
   std::vector<Contact> contacts;
   std::vector<TetPairForce> forces; // of those that press
   double friction = 0, damping = 0; // J
-  double depth = 0, depth_over_height = 0;
+  double depth = 0, depth_over_height = 0; // largest, m and in parts of the lower tetrahedron's height
+  std::array<int, 2> deepest{-1, -1};      // tetrahedra
 };
 
 // Finds the contacts of all pairs, in the order of keys. Pairs go to sleep.

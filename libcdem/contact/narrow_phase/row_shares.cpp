@@ -3,7 +3,7 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
-#include "libcdem/contact/data/tet_contacts.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
@@ -97,6 +97,8 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
       continue;
     }
     if (work.restitution)
+      nodes.add_block(b);
+    else if (touches_itself(model, work, b)) // each rank finds all its pairs of tetrahedra
       nodes.add_block(b);
     else if (work.broken[b])
       nodes.add_movers(b, [&](int mover) { return mover_read[mover] != 0; });
