@@ -144,14 +144,13 @@ CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, con
   }
   if (!law.hand_over_due)
     return 0;
-  M apart = all, away = all;
+  M is_gone{};
   const V size = root(area);
   for (int point = 0; point < 3; ++point) {
     const V &u = along[point][0], &v = along[point][1];
-    apart &= opening[point] > parted_from * size;
-    away &= u * u + v * v > (slid_from * slid_from) * area;
+    is_gone |= (opening[point] > parted_from * size) | (u * u + v * v > (slid_from * slid_from) * area);
   }
-  return bits_of(M(apart | away)) << first;
+  return bits_of(M(all & is_gone)) << first;
 }
 
 } // namespace cdem

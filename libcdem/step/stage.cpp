@@ -241,7 +241,7 @@ void Stage::synchronise_contacts(RunLog& log) {
 
 std::int64_t Stage::synchronise_stress(RunLog& log) {
   std::int64_t broken = 0;
-  work.hand_over_due = step % hand_over_every == 0;
+  work.hand_over_due = work.contact.relaxes = step % hand_over_every == 0;
   if (work.strain_step > 0) {
     if (shared_)
       shared_->parted(context_.state);

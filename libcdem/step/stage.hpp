@@ -177,7 +177,7 @@ NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_r
                         const std::function<void(int)>& place_rigid) {
   const Model& model = context_.model;
   State& state = context_.state;
-  work.hand_over_due = step % hand_over_every == 0;
+  work.hand_over_due = work.contact.relaxes = step % hand_over_every == 0;
   const int threads = context_.threads;
   breaking_ = breaking;
   if (shared_)

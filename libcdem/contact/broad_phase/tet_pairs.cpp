@@ -19,9 +19,6 @@ using TetPair = std::pair<int, int>;
 
 // Skin of a tetrahedron, over the usual height of one at the surface of its block.
 constexpr double skin_ratio = 0.05;
-// Tetrahedra that had a node of the mesh in common may overlap by this part of their height: around the node they fill all
-// space between them, and whatever strain they have makes them overlap.
-constexpr double slack_ratio = 0.005;
 // Rings of tetrahedra below the surface for which pairs are found too: cracks will open some of them.
 constexpr int rings_below = 2;
 // Steps for which pairs are near.
@@ -30,7 +27,7 @@ constexpr double steps_near = 30;
 std::vector<int> joints_of(const Model& model, const State& state, const ContactWork& work) {
   geom::DisjointSets sets(model.node_position.size());
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (!work.broken[chunk.block] || (state.faces[batch].told[lane] & ToldOfFace::separate) != 0)
+    if (!work.broken[chunk.block] || (state.faces[batch].told[lane] & ToldOfFace::left) != 0)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
     for (int k = 0; k < 3; ++k)
@@ -42,26 +39,6 @@ std::vector<int> joints_of(const Model& model, const State& state, const Contact
   return joint;
 }
 
-std::vector<TetPair> held_by_faces(const Model& model, const State& state, const ContactWork& work) {
-  std::vector<TetPair> held;
-  for (const ContactTriangle& t : model.surface.triangles) {
-    if (t.face < 0 || !work.broken[t.block] || t.tet > model.surface.triangles[t.mate].tet)
-      continue;
-    const std::uint8_t told = state.faces[t.face / lanes].told[t.face % lanes];
-    if ((told & ToldOfFace::separate) != 0 && (told & ToldOfFace::left) == 0)
-      held.emplace_back(t.tet, model.surface.triangles[t.mate].tet);
-  }
-  std::sort(held.begin(), held.end());
-  return held;
-}
-
-bool had_a_node_in_common(const Model& model, const SurfaceTet& a, const SurfaceTet& b) {
-  const std::vector<int>& original = model.surface.original;
-  return std::any_of(a.nodes.begin(), a.nodes.end(), [&](int m) {
-    return std::any_of(b.nodes.begin(), b.nodes.end(), [&](int n) { return original[m] == original[n]; });
-  });
-}
-
 bool may_touch(const TetContacts& of, const SurfaceTet& a, const SurfaceTet& b) {
   if (!a.at_surface || !b.at_surface)
     return false;
@@ -69,7 +46,7 @@ bool may_touch(const TetContacts& of, const SurfaceTet& a, const SurfaceTet& b) 
     for (const int n : b.nodes)
       if (of.joint[m] == of.joint[n])
         return false;
-  return !std::binary_search(of.held.begin(), of.held.end(), TetPair(a.tet, b.tet));
+  return true;
 }
 
 // The tetrahedra at the surface and the next ones below it.
@@ -118,7 +95,7 @@ void set_places(const Model& model, const State& state, TetContacts& of) {
 }
 
 // Adds pairs that no plane of one of them parts by more than their skins.
-void add_near(const Model& model, const std::vector<TetPair>& pairs, TetContacts& to) {
+void add_near(const std::vector<TetPair>& pairs, TetContacts& to) {
   constexpr std::size_t at_a_time = 64 * lanes;
   std::vector<TetPairView> views(at_a_time / lanes);
   for (std::size_t begin = 0; begin < pairs.size(); begin += at_a_time) {
@@ -136,10 +113,6 @@ void add_near(const Model& model, const std::vector<TetPair>& pairs, TetContacts
       const SurfaceTet &one = to.tets[a], &other = to.tets[b];
       to.pairs.a.push_back(a);
       to.pairs.b.push_back(b);
-      to.slack.push_back(
-          had_a_node_in_common(model, one, other)
-              ? static_cast<float>(slack_ratio * std::min(one.size.height, other.size.height))
-              : 0);
       to.pairs.allowed.push_back(rounded_down(apart));
       to.may_touch.push_back(static_cast<char>(may_touch(to, one, other)));
     }
@@ -164,7 +137,6 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
   to.path_then.assign(to.tets.size(), 0.0);
   to.limit.assign(to.tets.size(), -1.0);
   to.joint = joints_of(model, state, work);
-  to.held = held_by_faces(model, state, work);
   std::vector<geom::Box> boxes(to.tets.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (const int node : to.tets[i].nodes)
@@ -179,7 +151,7 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
                                  return to.tets[pair.first].block != to.tets[pair.second].block;
                                }),
                 pairs.end());
-  add_near(model, pairs, to);
+  add_near(pairs, to);
   for (std::vector<float>& then : to.pairs.then)
     then.assign(to.pairs.count(), 0.0F);
   work.tet_contacts = std::move(found);
@@ -209,18 +181,10 @@ bool told_anew(const Model& model, const State& state, ContactWork& work) {
   if (blocks + 1 != of.nodes_begin.size())
     return false;
   std::vector<int> joint = joints_of(model, state, work);
-  std::vector<TetPair> held = held_by_faces(model, state, work), differ;
-  std::set_symmetric_difference(held.begin(), held.end(), of.held.begin(), of.held.end(),
-                                std::back_inserter(differ));
-  for (const auto& [a, b] : differ)
-    for (const int tet : {a, b})
-      if (const int t = of.number[tet]; t >= 0)
-        changed[t] = 1;
   for (std::size_t t = 0; t < changed.size(); ++t)
     for (const int node : of.tets[t].nodes)
       changed[t] = static_cast<char>(changed[t] != 0 || joint[node] != of.joint[node]);
   std::swap(of.joint, joint);
-  std::swap(of.held, held);
   for (std::size_t p = 0; p < of.pairs.count(); ++p) {
     const int a = of.pairs.a[p], b = of.pairs.b[p];
     if (!changed[a] && !changed[b])
@@ -298,7 +262,27 @@ bool any_beyond(const std::vector<double>& path, const std::vector<double>& limi
   return false;
 }
 
+// All pairs with a contact are looked at in this step.
+void wake_contacts(const State& state, TetContacts& of) {
+  const auto begin = std::partition_point(state.contacts.begin(), state.contacts.end(),
+                                          [](const Contact& c) { return c.kind != Contact::tets; });
+  for (auto c = begin; c != state.contacts.end(); ++c)
+    if (const int p = of.pair_of(static_cast<int>(c->source), c->target); p >= 0)
+      of.pairs.allowed[p] = 0;
+  std::fill(of.limit.begin(), of.limit.end(), -1.0);
+}
+
 } // namespace
+
+int TetContacts::pair_of(int tet, int other) const {
+  const int one = number[tet], two = number[other];
+  const auto begin = std::lower_bound(pairs.a.begin(), pairs.a.end(), one) - pairs.a.begin(),
+             end = std::upper_bound(pairs.a.begin() + begin, pairs.a.end(), one) - pairs.a.begin();
+  const auto found = std::lower_bound(pairs.b.begin() + begin, pairs.b.begin() + end, two);
+  return one >= 0 && two >= 0 && found != pairs.b.begin() + end && *found == two
+             ? static_cast<int>(found - pairs.b.begin())
+             : -1;
+}
 
 bool touches_itself(const Model& model, const ContactWork& work, int block) {
   const Block& b = model.blocks[block];
@@ -324,6 +308,8 @@ void find_tet_pairs(const Model& model, const State& state, ContactWork& work, b
   if (left || (told && !told_anew(model, state, work)))
     find_anew(model, state, work);
   TetContacts& of = *work.tet_contacts;
+  if (work.relaxes)
+    wake_contacts(state, of);
   if (any_beyond(of.paths.path, of.limit))
     find_near(work, of);
 }

@@ -273,6 +273,7 @@ struct ContactWork {
   // In this step contacts begin at any depth, since it is not known which fragments are new. Otherwise only contacts of
   // movers that have changed do.
   bool any_depth_begins = false;
+  bool relaxes = false; // overlaps without a force that have grown smaller are less from this step on
   double step = 0; // s, since then
   // Tangent of the largest friction angle of any contact, for a stage that wants less than joints give.
   double most_friction = std::numeric_limits<double>::infinity();

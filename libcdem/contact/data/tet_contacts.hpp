@@ -1,7 +1,7 @@
 // Contact of a meshed block with itself once faces of it have broken: pairs of its tetrahedra. They live for one stage.
 //
 // Tetrahedra that hang together at a node never touch: around each node of the mesh, the copies whose tetrahedra are joined
-// by faces that have not lost all their strength are one joint. All others at the surface may touch
+// by faces whose own springs act are one joint, whether these faces hold or are the contact that a broken bond is. All others at the surface may touch
 // (response/tet_potential.hpp). A pair that is further apart sleeps until its two tetrahedra have gone so far past each other.
 // What is skipped changes no force.
 #pragma once
@@ -34,11 +34,9 @@ struct TetContacts {
   std::vector<int> tets_begin;             // by block that touches itself, into tets
   TetPaths paths;                          // of the tetrahedra
   std::vector<int> joint;                  // (n_nodes), the smallest node of the joint
-  std::vector<std::pair<int, int>> held;   // tetrahedra whose common face is broken and held by its own springs
   double skin = 0;                         // m, how far any may go before the pairs are found anew
 
   // Pairs, into `tets`, a < b; by a, then b.
-  std::vector<float> slack; // m, overlap at which a pair begins to press
   WatchedPairs pairs;
   std::vector<char> may_touch;
   bool fresh = true; // some pairs may not touch any more: their contacts have ended
@@ -49,6 +47,8 @@ struct TetContacts {
   std::vector<double> limit, path_then; // m; what the paths were when they were found
   std::int64_t steps = 0, steps_then = 0;
   std::vector<std::uint64_t> awake; // a bit per near pair
+
+  int pair_of(int tet, int other) const; // of the model, tet < other; -1: none
 };
 
 // What a pair did in a step.

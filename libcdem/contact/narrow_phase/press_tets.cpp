@@ -42,12 +42,8 @@ void fall_asleep(TetContacts& of, std::size_t near, double allowed) {
 
 // Whether the pair of an old contact may touch.
 bool is_pair(const TetContacts& of, const Contact& c) {
-  const int a = of.number[c.source], b = of.number[c.target];
-  const std::vector<int>&as = of.pairs.a, &bs = of.pairs.b;
-  const auto begin = std::lower_bound(as.begin(), as.end(), a) - as.begin(),
-             end = std::upper_bound(as.begin(), as.end(), a) - as.begin();
-  const auto found = std::lower_bound(bs.begin() + begin, bs.begin() + end, b);
-  return a >= 0 && b >= 0 && found != bs.begin() + end && *found == b && of.may_touch[found - bs.begin()];
+  const int p = of.pair_of(static_cast<int>(c.source), c.target);
+  return p >= 0 && of.may_touch[p];
 }
 
 Question question_of(const State& state, ContactWork& work) {
@@ -96,7 +92,7 @@ public:
     std::vector<std::size_t> pressed, others, meet, come;
     for (std::size_t i = 0; i < count; ++i) {
       const Contact* const before = asked_[i].before;
-      phi0_[i] = before ? before->reference_penetration : slack_of(i);
+      phi0_[i] = before ? before->reference_penetration : 0;
       (before && before->effective_penetration() > 0 ? pressed : others).push_back(i);
     }
     press(pressed);
@@ -106,7 +102,7 @@ public:
     look(others, bound_deepest);
     // What is known is that they overlap by no more than this: often that is enough.
     for (const std::size_t i : others)
-      if (deepest_[i] > trusted * slack_of(i))
+      if (deepest_[i] > 0)
         meet.push_back(i);
     look(meet, find_deepest);
     for (const std::size_t i : meet)
@@ -134,7 +130,6 @@ public:
 private:
   const SurfaceTet& first(std::size_t i) const { return of_.tets[of_.near.a[asked_[i].near]]; }
   const SurfaceTet& second(std::size_t i) const { return of_.tets[of_.near.b[asked_[i].near]]; }
-  double slack_of(std::size_t i) const { return of_.slack[of_.place_of_near[asked_[i].near]]; } // m
   double energy(std::size_t i) const {
     return result_[i].first >= 0 ? batches_[result_[i].first].energy[result_[i].second] : 0;
   }
@@ -180,7 +175,6 @@ private:
   void finish(std::size_t i) {
     const SurfaceTet &a = first(i), &b = second(i);
     const Contact* const before = asked_[i].before;
-    const double slack = slack_of(i);
     Contact c(Contact::tets, a.tet);
     c.target = c.fragment = b.tet;
     if (before)
@@ -190,25 +184,27 @@ private:
       const Push push(*this, batches_[result_[i].first], result_[i].second);
       if (!before) {
         c.normal = push.normal;
-        c.reference_penetration = slack;
-        if (deepest_[i] - slack > -1.5 * push.slid.dot(push.normal)) { // it did not come within the step
+        c.reference_penetration = 0;
+        if (deepest_[i] > -1.5 * push.slid.dot(push.normal)) { // it did not come within the step
           c.reference_penetration = deepest_[i];
           energy = 0;
         }
       }
       if (energy > 0) {
         allowed_.push_back(0);
-        act(push, before, energy, law_of(i).law, std::min(a.size.height, b.size.height), c);
+        act(push, before, energy, law_of(i), std::min(a.size.height, b.size.height), c);
         return;
       }
     }
     if (before && before->effective_penetration() > 0)
       lose(*before, law_of(i).law);
-    if (!(deepest_[i] > slack)) {
-      allowed_.push_back(trusted * slack - deepest_[i]);
+    if (!(deepest_[i] > 0)) {
+      allowed_.push_back(-deepest_[i]);
       return;
     }
-    allowed_.push_back(trusted * std::min(c.reference_penetration - deepest_[i], deepest_[i] - slack));
+    if (work_.relaxes)
+      c.reference_penetration = std::min(c.reference_penetration, deepest_[i]);
+    allowed_.push_back(trusted * std::min(c.reference_penetration - deepest_[i], deepest_[i]));
     c.depth = c.reference_penetration;
     c.shear = geom::Vec3::Zero();
     c.damping = 0;
@@ -226,10 +222,10 @@ private:
           sum += corner[k];
       }
       force = sum.norm();
-      normal = sum / force;
+      normal = force > 0 ? geom::Vec3(sum / force) : geom::Vec3::UnitZ();
       geom::Vec3 velocity = geom::Vec3::Zero(); // m/s, of the first past the second
       for (int k = 0; k < 8; ++k) {
-        weight[k] = corner[k].dot(normal) / force;
+        weight[k] = force > 0 ? corner[k].dot(normal) / force : 0;
         velocity += weight[k] * velocity_of(of.state_, node[k]);
         if (of.work_.restitution)
           compliance += weight[k] * weight[k] / moving_mass(of.model_, of.state_)[node[k]];
@@ -243,10 +239,11 @@ private:
     geom::Vec3 normal, slid;           // unit, on the first; m
   };
 
-  void act(const Push& push, const Contact* before, double energy, ContactLaw law, double height, Contact& c) {
-    // The spring that has this force and energy.
-    const double pressed = 2 * energy / push.force;
-    law.kn = push.force / pressed;
+  void act(const Push& push, const Contact* before, double energy, const TetPairLaw& of_pair, double height, Contact& c) {
+    ContactLaw law = of_pair.law;
+    // The spring that has this force and energy; none where the forces of the two cancel.
+    const double pressed = push.force > 0 ? 2 * energy / push.force : 0;
+    law.kn = pressed > 0 ? push.force / pressed : 0;
     c.stiffness = law.kn;
     if (!(before && work_.step == 0)) {
       ContactMotion motion;
@@ -270,9 +267,11 @@ private:
     }
     out_.forces.push_back(at);
     out_.contacts.push_back(c);
-    out_.depth = std::max(out_.depth, pressed);
-    if (pressed / height > out_.depth_over_height) {
-      out_.depth_over_height = pressed / height;
+    // The depth at which one corner would have this energy: where forces cancel, that of the spring is no depth.
+    const double depth = std::sqrt(4 * energy / of_pair.corner);
+    out_.depth = std::max(out_.depth, depth);
+    if (depth / height > out_.depth_over_height) {
+      out_.depth_over_height = depth / height;
       out_.deepest = {static_cast<int>(c.source), c.target};
     }
   }

@@ -1,9 +1,7 @@
 // Contacts of a block with itself, by pairs of its tetrahedra (response/tet_potential.hpp).
 //
-// A pair that is found in an overlap starts without a force: phi0 is that overlap, and stays as long as the two overlap. Only a
-// pair that came together within the step starts at 0. Tetrahedra that had a node of the mesh in common may overlap by
-// `slack_ratio` of their height more: around that node they fill all space between them, and whatever strain they have makes
-// them overlap.
+// A pair that is found in an overlap starts without a force: phi0 is that overlap. It falls to the overlap there is every
+// some steps (ContactWork::relaxes), whether the pair is asleep or not. A pair that came together within the step starts at 0.
 //
 // The normal force N of a contact is the resultant of the gradient, its normal n the direction of it. Corner i of a
 // tetrahedron with the force f_i has the weight f_i . n / N: friction and damping act by these weights, so they

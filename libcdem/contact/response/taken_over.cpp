@@ -1,5 +1,6 @@
 #include "libcdem/contact/response/taken_over.hpp"
 
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/contact/response/tet_potential.hpp"
@@ -22,12 +23,13 @@ int triangle_of(const ContactSurface& s, const FaceToTakeOver& of) {
   return found != end && found->face == of.face ? static_cast<int>(found - s.triangles.begin()) : -1;
 }
 
-Contact* contact_of(std::vector<Contact>& contacts, int tet, int other) {
+// That of the two tetrahedra; a new one where they have none.
+Contact& contact_of(std::vector<Contact>& contacts, int tet, int other) {
   Contact like(Contact::tets, std::min(tet, other));
   like.target = like.fragment = std::max(tet, other);
   const auto found = std::lower_bound(contacts.begin(), contacts.end(), like,
                                       [](const Contact& a, const Contact& b) { return key(a) < key(b); });
-  return found != contacts.end() && key(*found) == key(like) ? &*found : nullptr;
+  return found != contacts.end() && key(*found) == key(like) ? *found : *contacts.insert(found, like);
 }
 
 // The two tetrahedra of a contact, side by side for eight values of phi0.
@@ -96,32 +98,30 @@ void set_force(PairAt& pair, double force, Contact& c) {
 double take_over(const Model& model, State& state, const ContactWork& work, const FaceToTakeOver& of) {
   const ContactSurface& s = model.surface;
   const int t = triangle_of(s, of);
-  if (t < 0 || work.fragment.empty())
+  if (t < 0)
     return of.left.energy;
   const ContactTriangle& side = s.triangles[t];
   const int other = s.triangles[side.mate].tet;
-  Contact* const c = contact_of(state.contacts, side.tet, other);
-  if (!c)
-    return of.left.energy;
   geom::Vec3 force = geom::Vec3::Zero(); // N, on side a
   for (const geom::Vec3& at_corner : of.left.force)
     force += at_corner;
   const double pressing = -force.dot(unit_normal(corners_of(model, state, side.nodes)));
-  if (static_cast<int>(c->source) != side.tet)
-    force = -force;
-  ContactLaw law = law_of(model, *c);
-  const double before = c->effective_penetration() > 0 ? energy(*c, law) : 0,
-               has = c->effective_penetration() * law.kn;
-  if (pressing <= 0)
+  if (!(pressing > 0) || !touches_itself(model, work, side.block))
     return of.left.energy;
+  Contact& c = contact_of(state.contacts, side.tet, other);
+  if (static_cast<int>(c.source) != side.tet)
+    force = -force;
+  const ContactLaw law = law_of(model, c);
+  const double before = c.effective_penetration() > 0 ? energy(c, law) : 0,
+               has = c.effective_penetration() * law.kn;
   const Joint& joint = *contact_joint(model, side.block, side.block);
-  PairAt pair(model, state, *c,
-              tet_pair_law(model, joint, 0, side.block, tet_size(model, static_cast<int>(c->source)),
-                           tet_size(model, c->target))
+  PairAt pair(model, state, c,
+              tet_pair_law(model, joint, 0, side.block, tet_size(model, static_cast<int>(c.source)),
+                           tet_size(model, c.target))
                   .corner);
-  set_force(pair, has + pressing, *c);
-  c->shear += force - force.dot(c->normal) * c->normal;
-  return of.left.energy - energy(*c, law_of(model, *c)) + before;
+  set_force(pair, has + pressing, c);
+  c.shear += force - force.dot(c.normal) * c.normal;
+  return of.left.energy - energy(c, law_of(model, c)) + before;
 }
 
 } // namespace cdem
