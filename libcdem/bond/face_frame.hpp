@@ -71,6 +71,17 @@ inline FaceFrame face_frame(const FaceNodes& nodes, const Node* position, const 
 // Until then its own springs are the contact between them: they know where its sides met, and so close where they opened.
 inline constexpr double parted_from = 0.1, slid_from = 0.2;
 
+// Part of its size by which it has slid away where nothing of its springs acts any more.
+inline constexpr double slid_off_from = 0.6;
+
+// Part of the springs of a face that leaves which has let go. size: m.
+inline double let_go_of(const FaceFrame& f, double size) {
+  double slid = 0; // m
+  for (const geom::Vec3& gap : f.gap)
+    slid = std::max(slid, f.in_axes(gap).head<2>().norm());
+  return std::clamp((slid / size - slid_from) / (slid_off_from - slid_from), 0.0, 1.0);
+}
+
 inline bool is_gone(const FaceFrame& f, double size) { // size: m
   return std::any_of(f.gap.begin(), f.gap.end(), [&](const geom::Vec3& gap) {
     const geom::Vec3 g = f.in_axes(gap);

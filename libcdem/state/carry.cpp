@@ -197,6 +197,7 @@ private:
       t.handed_over[lane] = f.handed_over[old_lane];
       t.stage[lane] = f.stage[old_lane];
       t.preloaded[lane] = f.preloaded[old_lane];
+      t.let_go[lane] = f.let_go[old_lane];
       t.told[lane] = f.told[old_lane];
     }
   }

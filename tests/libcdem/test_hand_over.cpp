@@ -2,7 +2,9 @@
 #include "tests/libcdem/boxes.hpp"
 #include "tests/libcdem/two_halves.hpp"
 
+#include "libcdem/bond/face_frame.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -81,6 +83,29 @@ void let_faces_leave(System& s) {
   });
 }
 
+constexpr double slope = 25 * degree, pull = 100; // m/s2
+constexpr double way = 0.24; // m, that the upper part slides: its rear edge passes two rows of nodes
+
+Vec3 pull_at(double angle) {
+  return pull * Vec3(std::sin(angle), 0, -std::cos(angle));
+}
+
+// m/s2, of a block on the slope.
+double slides_at() {
+  return pull * (std::sin(slope) - std::tan(friction_angle) * std::cos(slope));
+}
+
+// Lets the upper part slide for nearly as far as its faces act by their own springs, and come to rest there.
+void slide_a_little(System& s, const Mat3& turn) {
+  const double size = edge / std::sqrt(2.0), far = 0.6 * cdem::slid_from * size;
+  s.conditions.gravity = gravity(turn * pull_at(slope));
+  cdem::RunOptions options;
+  options.duration = std::sqrt(2 * far / slides_at());
+  s.run(options);
+  s.conditions.gravity = gravity(turn * gravity_on_slope);
+  REQUIRE(s.relax(1e-6).converged);
+}
+
 // Forces of all contacts on the upper part, against the slope and along it, N.
 std::array<double, 2> carried(const System& s, const Mat3& turn) {
   Vec3 sum = Vec3::Zero();
@@ -99,6 +124,7 @@ TEST_CASE("hand-over: contacts take over the force of a pressed, sheared joint, 
   System s = leaning(turn, jitter, 1);
   const double weight = rock().density * upper.prod() * gravity_on_slope.norm();
   const double pressed = weight * std::cos(steep), sheared = weight * std::sin(steep);
+  slide_a_little(s, turn);
   const double stored = cdem::energy(s.model, s.state).springs;
   let_faces_leave(s);
   cdem::RunOptions options;
@@ -140,18 +166,6 @@ TEST_CASE("hand-over: the same bits for every number of threads", "[contact][han
 
 namespace {
 
-constexpr double slope = 25 * degree, pull = 100; // m/s2
-constexpr double way = 0.24; // m, that the upper part slides: its rear edge passes two rows of nodes
-
-Vec3 pull_at(double angle) {
-  return pull * Vec3(std::sin(angle), 0, -std::cos(angle));
-}
-
-// m/s2, of a block on the slope.
-double slides_at() {
-  return pull * (std::sin(slope) - std::tan(friction_angle) * std::cos(slope));
-}
-
 // m/s, of the upper part down the slope.
 double speed_of_upper(const System& s, const Mat3& turn) {
   double sum = 0, mass = 0;
@@ -169,24 +183,38 @@ double speed_of_upper(const System& s, const Mat3& turn) {
   return sum / mass;
 }
 
+// m, how far the lower side of the upper part has come below the upper side of the lower part, at most.
+double sunk(const System& s, const Mat3& turn) {
+  double deepest = 0;
+  for (std::size_t t = 0; t < s.model.tets.size(); ++t) {
+    double above = 0;
+    for (const int n : s.model.tets[t])
+      above += s.model.node_position[n].dot(turn.col(2)) / 4;
+    for (const int n : s.model.tets[t])
+      if (above > lower.z())
+        deepest = std::max(deepest, lower.z() - cdem::place_of(s.model, s.state, n).dot(turn.col(2)));
+  }
+  return deepest;
+}
+
 struct Slide {
   double acceleration = 0; // m/s2, mean
-  double deepest = 0;      // m, of all contacts
-  double across = 0;       // N, of all contacts the largest normal force along the slope
+  double deepest = 0;      // m, of the upper part's nodes, below the upper side of the lower part
+  double across = 0;       // N, normal forces of all contacts, along the slope
 };
 
 Slide slide(System& s, const Mat3& turn) {
-  let_faces_leave(s);
   s.conditions.gravity = gravity(turn * pull_at(slope));
   Slide found;
   cdem::RunOptions options;
   options.duration = std::sqrt(2 * way / slides_at());
   options.callback_every = 1;
   options.callback = [&] {
-    for (const cdem::Contact& c : s.state.contacts) {
-      found.deepest = std::max(found.deepest, c.depth);
-      found.across = std::max(found.across, normal_force(s, c) * std::abs(c.normal.dot(turn.col(0))));
-    }
+    Vec3 sum = Vec3::Zero();
+    for (const cdem::Contact& c : s.state.contacts)
+      sum += normal_force(s, c) * (c.normal.dot(turn.col(2)) > 0 ? c.normal : Vec3(-c.normal));
+    found.across = std::max(found.across, std::abs(sum.dot(turn.col(0))));
+    found.deepest = std::max(found.deepest, sunk(s, turn));
   };
   s.run(options);
   found.acceleration = speed_of_upper(s, turn) / options.duration;
