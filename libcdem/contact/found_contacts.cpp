@@ -94,8 +94,10 @@ void FoundContacts::add(std::vector<TetChunk> found) {
     }
     if (!counts)
       continue;
-    friction_.add(chunk.friction);
-    damping_.add(chunk.damping);
+    for (const double lost : chunk.friction)
+      friction_.add(lost);
+    for (const double lost : chunk.damping)
+      damping_.add(lost);
     sums_.contacts += static_cast<std::int64_t>(chunk.forces.size());
   }
 }

@@ -308,7 +308,7 @@ void find_tet_pairs(const Model& model, const State& state, ContactWork& work, b
   if (left || (told && !told_anew(model, state, work)))
     find_anew(model, state, work);
   TetContacts& of = *work.tet_contacts;
-  if (work.relaxes)
+  if (work.relaxes && work.step > 0)
     wake_contacts(state, of);
   if (any_beyond(of.paths.path, of.limit))
     find_near(work, of);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace cdem {
 namespace {
@@ -80,12 +81,14 @@ Question question_of(const State& state, ContactWork& work) {
 // Goes through some pairs in order.
 class Pressing {
 public:
-  Pressing(const Model& model, const State& state, const ContactWork& work, TetChunk& out)
-      : model_(model), state_(state), work_(work), of_(*work.tet_contacts), out_(out) {}
+  Pressing(const Model& model, const State& state, const ContactWork& work, const Question& question,
+           std::size_t begin, std::size_t end)
+      : model_(model), state_(state), work_(work), of_(*work.tet_contacts), question_(question), begin_(begin),
+        end_(end), asked_(question.asked.data() + begin) {}
 
-  void operator()(const Question& question, std::size_t begin, std::size_t end) {
-    asked_ = question.asked.data() + begin;
-    const std::size_t count = end - begin;
+  // force: N, on the first tetrahedron of each pair of the question.
+  void press(geom::Vec3* force) {
+    const std::size_t count = end_ - begin_;
     phi0_.resize(count);
     deepest_.assign(count, 0.0);
     result_.assign(count, {-1, 0});
@@ -109,19 +112,33 @@ public:
       if (deepest_[i] > phi0_[i])
         come.push_back(i);
     press(come);
-    out_.forces.reserve(pressed.size() + come.size());
-    out_.contacts.reserve(pressed.size() + come.size());
+    for (const std::size_t i : come)
+      if (!asked_[i].before && !came_within_step(i)) {
+        phi0_[i] = deepest_[i];
+        result_[i] = {-1, 0};
+      }
+    for (std::size_t i = 0; i < count; ++i)
+      if (energy(i) > 0)
+        force[begin_ + i] = batches_[result_[i].first].on_first(result_[i].second);
+  }
+
+  // direction: unit, of each pair of the question that presses.
+  TetChunk finish(const geom::Vec3* direction) {
+    direction_ = direction + begin_;
+    const std::size_t count = end_ - begin_;
+    out_.contacts.reserve(count);
     allowed_.reserve(count);
-    auto asleep = std::partition_point(question.asleep.begin(), question.asleep.end(),
-                                       [&](const auto& one) { return one.first < begin; });
+    auto asleep = std::partition_point(question_.asleep.begin(), question_.asleep.end(),
+                                       [&](const auto& one) { return one.first < begin_; });
     for (std::size_t i = 0; i < count; ++i) {
-      for (; asleep != question.asleep.end() && asleep->first == begin + i; ++asleep)
+      for (; asleep != question_.asleep.end() && asleep->first == begin_ + i; ++asleep)
         out_.contacts.push_back(*asleep->second);
-      finish(i);
+      finish_pair(i);
     }
-    if (end == question.asked.size())
-      for (; asleep != question.asleep.end(); ++asleep)
+    if (end_ == question_.asked.size())
+      for (; asleep != question_.asleep.end(); ++asleep)
         out_.contacts.push_back(*asleep->second);
+    return std::move(out_);
   }
 
   // m, that each of the pairs may go before it is looked at again.
@@ -162,6 +179,14 @@ private:
     press_pairs(of_.place.data(), batches_.get() + before, static_cast<std::int64_t>(more));
   }
 
+  bool came_within_step(std::size_t i) const {
+    const auto& [batch, lane] = result_[i];
+    if (!(energy(i) > 0))
+      return true;
+    const Push push(*this, batches_[batch], lane, batches_[batch].on_first(lane).normalized());
+    return deepest_[i] <= -1.5 * push.slid.dot(push.normal);
+  }
+
   TetPairLaw law_of(std::size_t i) {
     const SurfaceTet &a = first(i), &b = second(i);
     if (block_ != a.block) {
@@ -172,29 +197,21 @@ private:
     return tet_pair_law(model_, *joint_, tan_friction_, block_, a.size, b.size);
   }
 
-  void finish(std::size_t i) {
+  void finish_pair(std::size_t i) {
     const SurfaceTet &a = first(i), &b = second(i);
     const Contact* const before = asked_[i].before;
     Contact c(Contact::tets, a.tet);
     c.target = c.fragment = b.tet;
     if (before)
       c = *before;
-    double energy = this->energy(i);
-    if (energy > 0) {
-      const Push push(*this, batches_[result_[i].first], result_[i].second);
-      if (!before) {
+    c.reference_penetration = phi0_[i];
+    if (const double energy = this->energy(i); energy > 0) {
+      const Push push(*this, batches_[result_[i].first], result_[i].second, direction_[i]);
+      if (!before)
         c.normal = push.normal;
-        c.reference_penetration = 0;
-        if (deepest_[i] > -1.5 * push.slid.dot(push.normal)) { // it did not come within the step
-          c.reference_penetration = deepest_[i];
-          energy = 0;
-        }
-      }
-      if (energy > 0) {
-        allowed_.push_back(0);
-        act(push, before, energy, law_of(i), std::min(a.size.height, b.size.height), c);
-        return;
-      }
+      allowed_.push_back(0);
+      act(push, before, energy, law_of(i), std::min(a.size.height, b.size.height), c);
+      return;
     }
     if (before && before->effective_penetration() > 0)
       lose(*before, law_of(i).law);
@@ -202,7 +219,7 @@ private:
       allowed_.push_back(-deepest_[i]);
       return;
     }
-    if (work_.relaxes)
+    if (work_.relaxes && work_.step > 0)
       c.reference_penetration = std::min(c.reference_penetration, deepest_[i]);
     allowed_.push_back(trusted * std::min(c.reference_penetration - deepest_[i], deepest_[i]));
     c.depth = c.reference_penetration;
@@ -213,16 +230,13 @@ private:
 
   // The two sides of a contact that presses.
   struct Push {
-    Push(const Pressing& of, const TetPairPress& batch, int lane) {
-      geom::Vec3 sum = geom::Vec3::Zero();
+    Push(const Pressing& of, const TetPairPress& batch, int lane, const geom::Vec3& direction) : normal(direction) {
       for (int k = 0; k < 8; ++k) {
         node[k] = batch.of.node[k][lane];
         corner[k] = {batch.force[k][0][lane], batch.force[k][1][lane], batch.force[k][2][lane]};
         if (k < 4)
-          sum += corner[k];
+          force += corner[k].dot(normal);
       }
-      force = sum.norm();
-      normal = force > 0 ? geom::Vec3(sum / force) : geom::Vec3::UnitZ();
       geom::Vec3 velocity = geom::Vec3::Zero(); // m/s, of the first past the second
       for (int k = 0; k < 8; ++k) {
         weight[k] = force > 0 ? corner[k].dot(normal) / force : 0;
@@ -253,8 +267,8 @@ private:
       if (work_.restitution && law.damping_ratio > 0)
         set_approach(push, motion);
       const ContactLoss loss = advance(c, law, motion);
-      out_.friction += loss.friction;
-      out_.damping += loss.damping;
+      out_.friction.push_back(loss.friction);
+      out_.damping.push_back(loss.damping);
     }
     const double stiffness = 1.5 * law.kn * (1 + law.damping_ratio) + law.ks;
     const geom::Vec3 more = c.damping * c.normal + c.shear;
@@ -291,17 +305,20 @@ private:
   void lose(const Contact& c, ContactLaw law) {
     law.kn = c.stiffness;
     if (law.ks > 0)
-      out_.friction += 0.5 * c.shear.squaredNorm() / law.ks;
+      out_.friction.push_back(0.5 * c.shear.squaredNorm() / law.ks);
     if (law.damping_ratio > 0)
-      out_.damping += stored_by_damping(c, law);
+      out_.damping.push_back(stored_by_damping(c, law));
   }
 
   const Model& model_;
   const State& state_;
   const ContactWork& work_;
   const TetContacts& of_;
-  TetChunk& out_;
-  const Asked* asked_ = nullptr;
+  const Question& question_;
+  std::size_t begin_, end_;
+  const Asked* asked_;
+  const geom::Vec3* direction_ = nullptr;
+  TetChunk out_;
   // Each pair presses twice at most. Not set to 0: that would cost as much as what is written.
   std::unique_ptr<TetPairPress[]> batches_{new TetPairPress[2 * pairs_per_chunk / lanes]};
   std::size_t n_batches_ = 0;
@@ -312,6 +329,49 @@ private:
   double tan_friction_ = 0;
 };
 
+// In what direction each pair presses on its first tetrahedron, unit. Where a corner or an edge comes near an inner plane of the
+// body that it stands in, this plane is the nearest and pushes it aside, and the tetrahedron beyond pushes it back. So friction
+// goes by the direction of all that presses from about the same side on one of the two.
+std::vector<geom::Vec3> directions_of(const TetContacts& of, const Question& question,
+                                      const std::vector<geom::Vec3>& force) {
+  constexpr double same_side = 0.5; // cosine
+  std::vector<int> begin(of.tets.size() + 1, 0), pairs;
+  const auto tets = [&](std::size_t i) {
+    const std::size_t near = question.asked[i].near;
+    return std::array<int, 2>{of.near.a[near], of.near.b[near]};
+  };
+  std::vector<std::size_t> pressing;
+  for (std::size_t i = 0; i < force.size(); ++i)
+    if (force[i].squaredNorm() > 0) {
+      pressing.push_back(i);
+      for (const int tet : tets(i))
+        ++begin[tet + 1];
+    }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  pairs.resize(2 * pressing.size());
+  std::vector<int> end(begin.begin(), begin.end() - 1);
+  for (const std::size_t i : pressing)
+    for (const int tet : tets(i))
+      pairs[end[tet]++] = static_cast<int>(i);
+  std::vector<geom::Vec3> direction(force.size(), geom::Vec3::UnitZ());
+  for (const std::size_t i : pressing) {
+    const geom::Vec3 own = force[i].normalized();
+    geom::Vec3 sum = geom::Vec3::Zero();
+    for (const int tet : tets(i)) {
+      geom::Vec3 of_tet = geom::Vec3::Zero();
+      const double side = tet == tets(i)[0] ? 1 : -1;
+      for (int p = begin[tet]; p < begin[tet + 1]; ++p) {
+        const geom::Vec3 more = (tets(pairs[p])[0] == tet ? side : -side) * force[pairs[p]];
+        if (more.dot(own) > same_side * more.norm())
+          of_tet += more;
+      }
+      sum += of_tet.normalized();
+    }
+    direction[i] = sum.normalized();
+  }
+  return direction;
+}
+
 } // namespace
 
 std::vector<TetChunk> press_tets(const Model& model, const State& state, ContactWork& work, int threads) {
@@ -319,7 +379,7 @@ std::vector<TetChunk> press_tets(const Model& model, const State& state, Contact
     std::vector<TetChunk> found(1);
     for (const Contact& c : state.contacts)
       if (c.kind == Contact::tets)
-        found[0].friction += energy(c, law_of(model, c));
+        found[0].friction.push_back(energy(c, law_of(model, c)));
     return found;
   }
   TetContacts& of = *work.tet_contacts;
@@ -328,18 +388,22 @@ std::vector<TetChunk> press_tets(const Model& model, const State& state, Contact
   if (chunks.empty())
     chunks.emplace_back(); // for contacts that sleep
   std::vector<TetChunk> found(chunks.size());
-  std::vector<std::vector<double>> allowed(chunks.size());
-  for_chunks(static_cast<std::int64_t>(chunks.size()), threads, [&](std::int64_t i) {
-    Pressing pressing(model, state, work, found[i]);
-    pressing(question, static_cast<std::size_t>(chunks[i].begin), static_cast<std::size_t>(chunks[i].end));
-    allowed[i] = pressing.allowed();
-  });
+  std::vector<Pressing> pressing;
+  pressing.reserve(chunks.size());
+  for (const Range& chunk : chunks)
+    pressing.emplace_back(model, state, work, question, static_cast<std::size_t>(chunk.begin),
+                          static_cast<std::size_t>(chunk.end));
+  const auto n_chunks = static_cast<std::int64_t>(chunks.size());
+  std::vector<geom::Vec3> force(question.asked.size(), geom::Vec3::Zero());
+  for_chunks(n_chunks, threads, [&](std::int64_t i) { pressing[i].press(force.data()); });
+  const std::vector<geom::Vec3> direction = directions_of(of, question, force);
+  for_chunks(n_chunks, threads, [&](std::int64_t i) { found[i] = pressing[i].finish(direction.data()); });
   std::size_t asked = 0;
-  for (const std::vector<double>& of_chunk : allowed)
-    for (const double may_go : of_chunk)
+  for (const Pressing& of_chunk : pressing)
+    for (const double may_go : of_chunk.allowed())
       fall_asleep(of, question.asked[asked++].near, may_go);
   for (const Contact* const c : question.ended)
-    found[0].friction += energy(*c, law_of(model, *c));
+    found[0].friction.push_back(energy(*c, law_of(model, *c)));
   of.fresh = false;
   return found;
 }

@@ -18,7 +18,7 @@ namespace cdem {
 struct TetChunk {
   std::vector<Contact> contacts;
   std::vector<TetPairForce> forces; // of those that press
-  double friction = 0, damping = 0; // J
+  std::vector<double> friction, damping; // J, of each pair: which pairs a chunk has hangs on what sleeps
   double depth = 0, depth_over_height = 0; // largest, m and in parts of the lower tetrahedron's height
   std::array<int, 2> deepest{-1, -1};      // tetrahedra
 };

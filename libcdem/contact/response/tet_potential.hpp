@@ -14,6 +14,7 @@
 #pragma once
 
 #include "libcdem/parallel/simd.hpp"
+#include "libgeom/core/types.hpp"
 
 #include <array>
 #include <cmath>
@@ -237,6 +238,12 @@ struct TetPairPress {
 
   std::array<double, 3> at(int corner, int lane) const {
     return {force[corner][0][lane], force[corner][1][lane], force[corner][2][lane]};
+  }
+  geom::Vec3 on_first(int lane) const { // N
+    geom::Vec3 sum = geom::Vec3::Zero();
+    for (int corner = 0; corner < 4; ++corner)
+      sum += geom::Vec3(force[corner][0][lane], force[corner][1][lane], force[corner][2][lane]);
+    return sum;
   }
 };
 
