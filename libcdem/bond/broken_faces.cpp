@@ -147,7 +147,7 @@ private:
       for (const Response& r : response_)
         energy += r.energy;
       if (law_.hand_over_due && (leaves(state, lane_) || is_gone(now_, size)))
-        let_go(now_, size, energy, lane_, state, sums);
+        sums.friction += let_go(now_, size, energy, lane_, state, sums);
       return;
     }
     for (int point = 0; point < 3; ++point)
@@ -166,16 +166,18 @@ private:
 
 } // namespace
 
-void let_go(const FaceFrame& f, double size, double energy, int lane, FaceStateBatch& state, FaceSums& sums) {
+double let_go(const FaceFrame& f, double size, double energy, int lane, FaceStateBatch& state,
+              FaceSums& sums) {
   bool open = true;
   for (const geom::Vec3& gap : f.gap)
     open = open && f.in_axes(gap)[2] > 0;
   double& part = state.let_go[lane];
   const double before = part;
   part = open ? 1 : std::max(before, let_go_of(f, size));
-  sums.friction += (part - before) / (1 - before) * energy;
+  const double lost = (part - before) / (1 - before) * energy;
   sums.hands_over = sums.hands_over || part >= 1 || !leaves(state, lane);
   set_hand_over(state, lane, part >= 1 ? HandOver::done : HandOver::leaving);
+  return lost;
 }
 
 void one_by_one(const FaceBatch& batch, unsigned faces, const FaceMotion& motion, const FaceLaw& law,

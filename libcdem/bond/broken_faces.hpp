@@ -19,7 +19,7 @@ void one_by_one(const FaceBatch&, unsigned faces, const FaceMotion&, const FaceL
                 std::int64_t first_spring, FaceStateBatch&, FaceSlipBatch*, simd::Vec (&force)[3], FaceSums&);
 
 // What a broken face that has parted or slid away lets go of; it is handed over once all its springs are open, or it has slid
-// off. size: m, of the face; energy: J, stored in its springs.
-void let_go(const FaceFrame&, double size, double energy, int lane, FaceStateBatch&, FaceSums&);
+// off. size: m, of the face; energy: J, stored in its springs. Returns what of it is lost, J.
+double let_go(const FaceFrame&, double size, double energy, int lane, FaceStateBatch&, FaceSums&);
 
 } // namespace cdem

@@ -19,7 +19,7 @@ template <class V>
 struct Group {
   int count = 0;
   int face[width<V>], a[3][width<V>], b[3][width<V>]; // and its nodes' places
-  V area, k; // m2, a third of a face, of which its springs act; Pa/m
+  V area, k;                                          // m2, a third of a face, of which its springs act; Pa/m
 };
 
 template <class V>
@@ -240,11 +240,11 @@ public:
   // It has lost its strength and opened: what it still stores, J, is let go of, less the half step of work that its pull (N,
   // at its points) would have done. From now on it is a contact on its own plane, which closes where its sides stand now,
   // or at a gap of zero if they are further apart.
-  void separate(const std::array<geom::Vec3, 3>& pull) {
+  double separate(const std::array<geom::Vec3, 3>& pull) { // J, what breaking takes
     const FaceFrame before = face_frame(batch_, lane_, chunk_.motion, chunk_.motion.step);
-    chunk_.sums.breaking += stored();
+    double taken = stored();
     for (int point = 0; point < 3; ++point) {
-      chunk_.sums.breaking -= 0.5 * pull[point].dot(now_.gap[point] - before.gap[point]);
+      taken -= 0.5 * pull[point].dot(now_.gap[point] - before.gap[point]);
       const geom::Vec3 gap = now_.in_axes(now_.gap[point]);
       cohesive_.offset[point] = cohesive_.start[point] = {};
       cohesive_.slip[point] = {gap.x(), gap.y(), std::min(0.0, gap.z())};
@@ -252,6 +252,7 @@ public:
     }
     cohesive_.plane = {0, 0, 1};
     state_.stage[lane_] = FaceStage::separated;
+    return taken;
   }
 
   // Nothing is between its sides any more.
@@ -264,10 +265,12 @@ public:
   }
 
   // Contacts around it may begin; its springs let go by and by.
-  void leave() {
-    cdem::let_go(now_, std::sqrt(3 * batch_.area[lane_]), stored(), lane_, state_, chunk_.sums);
+  double leave() { // J, lost
+    const double lost =
+        cdem::let_go(now_, std::sqrt(3 * batch_.area[lane_]), stored(), lane_, state_, chunk_.sums);
     if (handed_over(state_, lane_))
       state_.stage[lane_] = FaceStage::parted;
+    return lost;
   }
 
 private:
@@ -356,12 +359,6 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const SofteningJoint<
     memories.advance(point, r);
   }
   memories.keep(chunk.cohesive);
-  FaceSums& sums = chunk.sums;
-  for (int lane = 0; lane < g.count; ++lane) {
-    sums.friction += friction[lane];
-    sums.breaking += breaking[lane];
-    sums.crack += CrackEnergy{tension[lane], shear[lane]};
-  }
   if (const unsigned any_ended = ended[0] | ended[1] | ended[2]; any_ended != 0) {
     const T3 m_in_space = s.now.in_space(m);
     for (unsigned bits = any_ended; bits != 0; bits &= bits - 1) {
@@ -384,14 +381,21 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const SofteningJoint<
       continue;
     EndOfFace end(chunk, g.face[lane]);
     if (separates) {
-      end.separate({lane_of(pull[0], lane), lane_of(pull[1], lane), lane_of(pull[2], lane)});
+      breaking[lane] +=
+          end.separate({lane_of(pull[0], lane), lane_of(pull[1], lane), lane_of(pull[2], lane)});
       let_go |= 1u << lane;
     } else if (leaving || end.gone()) {
       if (opened_now)
         end.end();
       else if (chunk.hands_over)
-        end.leave();
+        friction[lane] += end.leave();
     }
+  }
+  FaceSums& sums = chunk.sums;
+  for (int lane = 0; lane < g.count; ++lane) {
+    sums.friction += friction[lane];
+    sums.breaking += breaking[lane];
+    sums.crack += CrackEnergy{tension[lane], shear[lane]};
   }
   if (let_go != 0) {
     const MaskOf<V> parted = simd::lanes_of<V>(let_go);

@@ -80,7 +80,8 @@ CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, con
     return 0;
   }
   const V one = zero + 1.0, tan_friction = simd::part_of<V, first>(tan_of_all),
-          kn = load_wide<V>(batch.kn + first) * (one - load_wide<V>(state.let_go + first)), ks = law.shear_ratio * kn;
+          kn = load_wide<V>(batch.kn + first) * (one - load_wide<V>(state.let_go + first)),
+          ks = law.shear_ratio * kn;
   VecOf<V> x[3], d[3];
   for (int k = 0; k < 3; ++k) {
     x[k] = gather_wide<V>(motion.position, batch.place_a[k] + first);

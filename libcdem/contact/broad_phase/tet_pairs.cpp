@@ -39,6 +39,24 @@ std::vector<int> joints_of(const Model& model, const State& state, const Contact
   return joint;
 }
 
+// A bit for each plane of each tetrahedron of the block that is surface: outside, or of a face that acts no more.
+std::vector<std::uint8_t> outer_planes(const Model& model, const State& state, int block) {
+  const ContactSurface& s = model.surface;
+  const Block& b = model.blocks[block];
+  std::vector<std::uint8_t> outer(static_cast<std::size_t>(b.tet_end - b.tet_begin), 0);
+  for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t) {
+    const ContactTriangle& triangle = s.triangles[t];
+    if (triangle.face >= 0 &&
+        (state.faces[triangle.face / lanes].told[triangle.face % lanes] & ToldOfFace::left) == 0)
+      continue;
+    const geom::Tet& nodes = model.tets[triangle.tet];
+    for (int k = 0; k < 4; ++k)
+      if (std::find(triangle.nodes.begin(), triangle.nodes.end(), nodes[k]) == triangle.nodes.end())
+        outer[triangle.tet - b.tet_begin] |= static_cast<std::uint8_t>(1 << k);
+  }
+  return outer;
+}
+
 bool may_touch(const TetContacts& of, const SurfaceTet& a, const SurfaceTet& b) {
   if (!a.at_surface || !b.at_surface)
     return false;
@@ -67,16 +85,17 @@ std::vector<char> with_rings(const Model& model, const Block& block, std::vector
   return some;
 }
 
-void add_tets(const Model& model, const ContactWork& work, int block, TetContacts& to) {
+void add_tets(const Model& model, const State& state, const ContactWork& work, int block, TetContacts& to) {
   const Block& b = model.blocks[block];
   const std::vector<char> at_surface = tets_at_surface(model, work, block),
                           all = with_rings(model, b, at_surface);
+  const std::vector<std::uint8_t> outer = outer_planes(model, state, block);
   const auto first = static_cast<std::ptrdiff_t>(to.nodes.size());
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
     if (all[tet - b.tet_begin]) {
       to.number[tet] = static_cast<int>(to.tets.size());
-      to.tets.push_back(
-          {tet, block, model.tets[tet], tet_size(model, tet), at_surface[tet - b.tet_begin] != 0});
+      to.tets.push_back({tet, block, model.tets[tet], tet_size(model, tet),
+                         at_surface[tet - b.tet_begin] != 0, outer[tet - b.tet_begin]});
       to.nodes.insert(to.nodes.end(), model.tets[tet].begin(), model.tets[tet].end());
       for (int k = 0; k < 4; ++k)
         to.corner[k].push_back(model.tets[tet][k]);
@@ -129,7 +148,7 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
   to.skin = std::numeric_limits<double>::infinity();
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
     if (touches_itself(model, work, block)) {
-      add_tets(model, work, block, to);
+      add_tets(model, state, work, block, to);
       to.skin = std::min(to.skin, skin_ratio * model.surface.usual_height[block]);
     }
   set_places(model, state, to);
@@ -168,8 +187,11 @@ bool told_anew(const Model& model, const State& state, ContactWork& work) {
       continue;
     ++blocks;
     const std::vector<char> at_surface = tets_at_surface(model, work, block);
+    const std::vector<std::uint8_t> outer = outer_planes(model, state, block);
     for (std::size_t i = 0; i < at_surface.size(); ++i) {
       const int t = of.number[model.blocks[block].tet_begin + i];
+      if (t >= 0)
+        of.tets[t].outer = outer[i];
       if (t < 0 && at_surface[i])
         return false;
       if (t < 0 || of.tets[t].at_surface == (at_surface[i] != 0))
@@ -208,7 +230,8 @@ double left_by_paths(const TetContacts& of, std::size_t p) {
     const double past = of.paths.drift[axis][b] - of.paths.drift[axis][a] - of.pairs.then[axis][p];
     past2 += past * past;
   }
-  return of.pairs.allowed[p] - std::sqrt(past2) - (of.paths.swing[a] + of.paths.swing[b] - of.pairs.then[3][p]);
+  return of.pairs.allowed[p] - std::sqrt(past2) -
+         (of.paths.swing[a] + of.paths.swing[b] - of.pairs.then[3][p]);
 }
 
 void find_near(const ContactWork& work, TetContacts& of) {
@@ -230,7 +253,8 @@ void find_near(const ContactWork& work, TetContacts& of) {
   constexpr double twice = 2; // the middle and the corners of a tetrahedron go no further than its path, each
   for (std::size_t p = 0; p < of.pairs.count(); ++p) {
     const int a = of.pairs.a[p], b = of.pairs.b[p];
-    if (!of.may_touch[p] || (!work.looks_at_all && left_by_paths(of, p) > 2 * twice * (margin[a] + margin[b])))
+    if (!of.may_touch[p] ||
+        (!work.looks_at_all && left_by_paths(of, p) > 2 * twice * (margin[a] + margin[b])))
       continue;
     of.place_of_near.push_back(static_cast<int>(p));
     of.near.a.push_back(a);

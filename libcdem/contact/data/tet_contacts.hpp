@@ -22,19 +22,20 @@ struct SurfaceTet {
   geom::Tet nodes{};
   TetSize size;
   bool at_surface = false; // one of its nodes is
+  std::uint8_t outer = 0;  // a bit for each of its planes that is surface, plane k opposite node k
 };
 
 struct TetContacts {
-  std::vector<SurfaceTet> tets; // of blocks that touch themselves, ascending
-  std::vector<int> number;      // per tetrahedron of the model: in `tets`; -1: not there
-  std::vector<int> nodes;       // of them, ascending within each block
-  std::vector<int> nodes_begin; // by block that touches itself, into nodes
-  std::vector<Node> place;      // m, (n_nodes), of those nodes
-  std::array<std::vector<int>, 4> corner;  // nodes of the tetrahedra
-  std::vector<int> tets_begin;             // by block that touches itself, into tets
-  TetPaths paths;                          // of the tetrahedra
-  std::vector<int> joint;                  // (n_nodes), the smallest node of the joint
-  double skin = 0;                         // m, how far any may go before the pairs are found anew
+  std::vector<SurfaceTet> tets;           // of blocks that touch themselves, ascending
+  std::vector<int> number;                // per tetrahedron of the model: in `tets`; -1: not there
+  std::vector<int> nodes;                 // of them, ascending within each block
+  std::vector<int> nodes_begin;           // by block that touches itself, into nodes
+  std::vector<Node> place;                // m, (n_nodes), of those nodes
+  std::array<std::vector<int>, 4> corner; // nodes of the tetrahedra
+  std::vector<int> tets_begin;            // by block that touches itself, into tets
+  TetPaths paths;                         // of the tetrahedra
+  std::vector<int> joint;                 // (n_nodes), the smallest node of the joint
+  double skin = 0;                        // m, how far any may go before the pairs are found anew
 
   // Pairs, into `tets`, a < b; by a, then b.
   WatchedPairs pairs;

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 namespace cdem {
 namespace {
@@ -66,7 +65,8 @@ Question question_of(const State& state, ContactWork& work) {
   };
   for (std::size_t word = 0; word < of.awake.size(); ++word)
     for (std::uint64_t bits = of.awake[word]; bits != 0; bits &= bits - 1) {
-      const std::size_t near = word * contact_rows_per_chunk + static_cast<std::size_t>(__builtin_ctzll(bits));
+      const std::size_t near =
+          word * contact_rows_per_chunk + static_cast<std::size_t>(__builtin_ctzll(bits));
       const std::pair<int, int> tets(of.tets[of.near.a[near]].tet, of.tets[of.near.b[near]].tet);
       keep_before(tets);
       Asked asked{near};
@@ -83,11 +83,10 @@ class Pressing {
 public:
   Pressing(const Model& model, const State& state, const ContactWork& work, const Question& question,
            std::size_t begin, std::size_t end)
-      : model_(model), state_(state), work_(work), of_(*work.tet_contacts), question_(question), begin_(begin),
-        end_(end), asked_(question.asked.data() + begin) {}
+      : model_(model), state_(state), work_(work), of_(*work.tet_contacts), question_(question),
+        begin_(begin), end_(end), asked_(question.asked.data() + begin) {}
 
-  // force: N, on the first tetrahedron of each pair of the question.
-  void press(geom::Vec3* force) {
+  TetChunk operator()() {
     const std::size_t count = end_ - begin_;
     phi0_.resize(count);
     deepest_.assign(count, 0.0);
@@ -117,15 +116,6 @@ public:
         phi0_[i] = deepest_[i];
         result_[i] = {-1, 0};
       }
-    for (std::size_t i = 0; i < count; ++i)
-      if (energy(i) > 0)
-        force[begin_ + i] = batches_[result_[i].first].on_first(result_[i].second);
-  }
-
-  // direction: unit, of each pair of the question that presses.
-  TetChunk finish(const geom::Vec3* direction) {
-    direction_ = direction + begin_;
-    const std::size_t count = end_ - begin_;
     out_.contacts.reserve(count);
     allowed_.reserve(count);
     auto asleep = std::partition_point(question_.asleep.begin(), question_.asleep.end(),
@@ -172,6 +162,8 @@ private:
       TetPairPress& batch = batches_[before + k / lanes];
       const int lane = static_cast<int>(k % lanes);
       batch.of.set(lane, first(i).nodes, second(i).nodes);
+      batch.outer[0][lane] = first(i).outer;
+      batch.outer[1][lane] = second(i).outer;
       batch.phi0[lane] = phi0_[i];
       batch.stiffness[lane] = law_of(i).corner;
       result_[i] = {static_cast<int>(before + k / lanes), lane};
@@ -183,8 +175,8 @@ private:
     const auto& [batch, lane] = result_[i];
     if (!(energy(i) > 0))
       return true;
-    const Push push(*this, batches_[batch], lane, batches_[batch].on_first(lane).normalized());
-    return deepest_[i] <= -1.5 * push.slid.dot(push.normal);
+    const Push push(*this, batches_[batch], lane);
+    return deepest_[i] <= 1.5 * push.closing;
   }
 
   TetPairLaw law_of(std::size_t i) {
@@ -206,7 +198,7 @@ private:
       c = *before;
     c.reference_penetration = phi0_[i];
     if (const double energy = this->energy(i); energy > 0) {
-      const Push push(*this, batches_[result_[i].first], result_[i].second, direction_[i]);
+      const Push push(*this, batches_[result_[i].first], result_[i].second);
       if (!before)
         c.normal = push.normal;
       allowed_.push_back(0);
@@ -230,30 +222,42 @@ private:
 
   // The two sides of a contact that presses.
   struct Push {
-    Push(const Pressing& of, const TetPairPress& batch, int lane, const geom::Vec3& direction) : normal(direction) {
+    Push(const Pressing& of, const TetPairPress& batch, int lane) {
+      geom::Vec3 all = geom::Vec3::Zero();
       for (int k = 0; k < 8; ++k) {
         node[k] = batch.of.node[k][lane];
         corner[k] = {batch.force[k][0][lane], batch.force[k][1][lane], batch.force[k][2][lane]};
         if (k < 4)
-          force += corner[k].dot(normal);
+          all += corner[k];
+      }
+      const geom::Vec3 outer(batch.from_outer[0][lane], batch.from_outer[1][lane], batch.from_outer[2][lane]);
+      if (all.dot(outer) > 0) {
+        normal = outer.normalized();
+        force = all.dot(normal);
       }
       geom::Vec3 velocity = geom::Vec3::Zero(); // m/s, of the first past the second
+      double work = 0;                          // W
       for (int k = 0; k < 8; ++k) {
+        const geom::Vec3 v = velocity_of(of.state_, node[k]);
+        work += corner[k].dot(v);
         weight[k] = force > 0 ? corner[k].dot(normal) / force : 0;
-        velocity += weight[k] * velocity_of(of.state_, node[k]);
+        velocity += weight[k] * v;
         if (of.work_.restitution)
           compliance += weight[k] * weight[k] / moving_mass(of.model_, of.state_)[node[k]];
       }
       slid = of.work_.step * velocity;
+      closing = all.norm() > 0 ? -of.work_.step * work / all.norm() : 0;
     }
     std::array<int, 8> node{};
-    std::array<geom::Vec3, 8> corner;  // N
-    std::array<double, 8> weight{};    // of the first they sum up to 1, of the second to -1
-    double force = 0, compliance = 0;  // N, 1/kg
-    geom::Vec3 normal, slid;           // unit, on the first; m
+    std::array<geom::Vec3, 8> corner;              // N
+    std::array<double, 8> weight{};                // of the first they sum up to 1, of the second to -1
+    double force = 0, compliance = 0;              // N, 1/kg
+    geom::Vec3 normal = geom::Vec3::UnitZ(), slid; // unit, on the first; m
+    double closing = 0;                            // m, in the step, along the whole force
   };
 
-  void act(const Push& push, const Contact* before, double energy, const TetPairLaw& of_pair, double height, Contact& c) {
+  void act(const Push& push, const Contact* before, double energy, const TetPairLaw& of_pair, double height,
+           Contact& c) {
     ContactLaw law = of_pair.law;
     // The spring that has this force and energy; none where the forces of the two cancel.
     const double pressed = push.force > 0 ? 2 * energy / push.force : 0;
@@ -317,60 +321,16 @@ private:
   const Question& question_;
   std::size_t begin_, end_;
   const Asked* asked_;
-  const geom::Vec3* direction_ = nullptr;
   TetChunk out_;
   // Each pair presses twice at most. Not set to 0: that would cost as much as what is written.
   std::unique_ptr<TetPairPress[]> batches_{new TetPairPress[2 * pairs_per_chunk / lanes]};
   std::size_t n_batches_ = 0;
-  std::vector<std::pair<int, int>> result_; // batch and lane of the force; -1: none was asked for
+  std::vector<std::pair<int, int>> result_;      // batch and lane of the force; -1: none was asked for
   std::vector<double> phi0_, deepest_, allowed_; // m
   int block_ = -1;                               // whose law is known
   const Joint* joint_ = nullptr;
   double tan_friction_ = 0;
 };
-
-// In what direction each pair presses on its first tetrahedron, unit. Where a corner or an edge comes near an inner plane of the
-// body that it stands in, this plane is the nearest and pushes it aside, and the tetrahedron beyond pushes it back. So friction
-// goes by the direction of all that presses from about the same side on one of the two.
-std::vector<geom::Vec3> directions_of(const TetContacts& of, const Question& question,
-                                      const std::vector<geom::Vec3>& force) {
-  constexpr double same_side = 0.5; // cosine
-  std::vector<int> begin(of.tets.size() + 1, 0), pairs;
-  const auto tets = [&](std::size_t i) {
-    const std::size_t near = question.asked[i].near;
-    return std::array<int, 2>{of.near.a[near], of.near.b[near]};
-  };
-  std::vector<std::size_t> pressing;
-  for (std::size_t i = 0; i < force.size(); ++i)
-    if (force[i].squaredNorm() > 0) {
-      pressing.push_back(i);
-      for (const int tet : tets(i))
-        ++begin[tet + 1];
-    }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  pairs.resize(2 * pressing.size());
-  std::vector<int> end(begin.begin(), begin.end() - 1);
-  for (const std::size_t i : pressing)
-    for (const int tet : tets(i))
-      pairs[end[tet]++] = static_cast<int>(i);
-  std::vector<geom::Vec3> direction(force.size(), geom::Vec3::UnitZ());
-  for (const std::size_t i : pressing) {
-    const geom::Vec3 own = force[i].normalized();
-    geom::Vec3 sum = geom::Vec3::Zero();
-    for (const int tet : tets(i)) {
-      geom::Vec3 of_tet = geom::Vec3::Zero();
-      const double side = tet == tets(i)[0] ? 1 : -1;
-      for (int p = begin[tet]; p < begin[tet + 1]; ++p) {
-        const geom::Vec3 more = (tets(pairs[p])[0] == tet ? side : -side) * force[pairs[p]];
-        if (more.dot(own) > same_side * more.norm())
-          of_tet += more;
-      }
-      sum += of_tet.normalized();
-    }
-    direction[i] = sum.normalized();
-  }
-  return direction;
-}
 
 } // namespace
 
@@ -388,19 +348,16 @@ std::vector<TetChunk> press_tets(const Model& model, const State& state, Contact
   if (chunks.empty())
     chunks.emplace_back(); // for contacts that sleep
   std::vector<TetChunk> found(chunks.size());
-  std::vector<Pressing> pressing;
-  pressing.reserve(chunks.size());
-  for (const Range& chunk : chunks)
-    pressing.emplace_back(model, state, work, question, static_cast<std::size_t>(chunk.begin),
-                          static_cast<std::size_t>(chunk.end));
-  const auto n_chunks = static_cast<std::int64_t>(chunks.size());
-  std::vector<geom::Vec3> force(question.asked.size(), geom::Vec3::Zero());
-  for_chunks(n_chunks, threads, [&](std::int64_t i) { pressing[i].press(force.data()); });
-  const std::vector<geom::Vec3> direction = directions_of(of, question, force);
-  for_chunks(n_chunks, threads, [&](std::int64_t i) { found[i] = pressing[i].finish(direction.data()); });
+  std::vector<std::vector<double>> allowed(chunks.size());
+  for_chunks(static_cast<std::int64_t>(chunks.size()), threads, [&](std::int64_t i) {
+    Pressing pressing(model, state, work, question, static_cast<std::size_t>(chunks[i].begin),
+                      static_cast<std::size_t>(chunks[i].end));
+    found[i] = pressing();
+    allowed[i] = pressing.allowed();
+  });
   std::size_t asked = 0;
-  for (const Pressing& of_chunk : pressing)
-    for (const double may_go : of_chunk.allowed())
+  for (const std::vector<double>& of_chunk : allowed)
+    for (const double may_go : of_chunk)
       fall_asleep(of, question.asked[asked++].near, may_go);
   for (const Contact* const c : question.ended)
     found[0].friction.push_back(energy(*c, law_of(model, *c)));

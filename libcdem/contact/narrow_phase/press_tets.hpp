@@ -17,8 +17,8 @@ namespace cdem {
 // What one chunk of pairs found in a step.
 struct TetChunk {
   std::vector<Contact> contacts;
-  std::vector<TetPairForce> forces; // of those that press
-  std::vector<double> friction, damping; // J, of each pair: which pairs a chunk has hangs on what sleeps
+  std::vector<TetPairForce> forces;        // of those that press
+  std::vector<double> friction, damping;   // J, of each pair: which pairs a chunk has hangs on what sleeps
   double depth = 0, depth_over_height = 0; // largest, m and in parts of the lower tetrahedron's height
   std::array<int, 2> deepest{-1, -1};      // tetrahedra
 };

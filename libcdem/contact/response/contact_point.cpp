@@ -85,16 +85,15 @@ ContactArms tet_arms(const Model& model, const State& state, const Contact& c) {
   std::fill_n(batch.phi0, lanes, c.reference_penetration);
   std::fill_n(batch.stiffness, lanes, 1.0);
   press_pairs(place.data(), &batch, 1);
-  geom::Vec3 sum = geom::Vec3::Zero();
+  double sum = 0; // N
   const auto force = [&](int k) {
     return geom::Vec3(batch.force[k][0][0], batch.force[k][1][0], batch.force[k][2][0]);
   };
   for (int k = 0; k < 4; ++k)
-    sum += force(k);
-  const double square = sum.squaredNorm();
+    sum += force(k).dot(c.normal);
   for (int k = 0; k < 4; ++k) { // those that do not press: their middles
-    arms.on_source[k] = square > 0 ? force(k).dot(sum) / square : 0.25;
-    arms.normal[k] = square > 0 ? -force(4 + k).dot(sum) / square : 0.25;
+    arms.on_source[k] = sum > 0 ? force(k).dot(c.normal) / sum : 0.25;
+    arms.normal[k] = sum > 0 ? -force(4 + k).dot(c.normal) / sum : 0.25;
   }
   arms.shear = arms.normal;
   return arms;

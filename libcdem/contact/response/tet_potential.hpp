@@ -14,7 +14,6 @@
 #pragma once
 
 #include "libcdem/parallel/simd.hpp"
-#include "libgeom/core/types.hpp"
 
 #include <array>
 #include <cmath>
@@ -22,7 +21,8 @@
 
 namespace cdem {
 
-inline constexpr std::array<std::array<int, 3>, 4> planes_of_tet{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+inline constexpr std::array<std::array<int, 3>, 4> planes_of_tet{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 inline constexpr std::array<std::array<int, 2>, 6> edges_of_tet{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
@@ -52,8 +52,8 @@ using TetCorners = std::array<Triple<V>, 4>; // m
 // How the corners of a source stand to the planes of a target.
 template <class V>
 struct DepthsInTet {
-  std::array<Triple<V>, 4> normal;     // of planes, unit, outwards
-  std::array<V, 4> reciprocal;         // 1/m2, of twice their areas
+  std::array<Triple<V>, 4> normal;       // of planes, unit, outwards
+  std::array<V, 4> reciprocal;           // 1/m2, of twice their areas
   std::array<std::array<V, 4>, 4> depth; // m, below plane [k], of corner [i]
 };
 
@@ -62,7 +62,8 @@ CDEM_INLINE DepthsInTet<V> depths_in_tet(const TetCorners<V>& target, const TetC
   DepthsInTet<V> at;
   for (int k = 0; k < 4; ++k) {
     const Triple<V>& foot = target[planes_of_tet[k][0]];
-    const Triple<V> n = cross(minus(target[planes_of_tet[k][1]], foot), minus(target[planes_of_tet[k][2]], foot));
+    const Triple<V> n =
+        cross(minus(target[planes_of_tet[k][1]], foot), minus(target[planes_of_tet[k][2]], foot));
     at.reciprocal[k] = 1.0 / simd::square_root<V>(dot(n, n));
     at.normal[k] = scaled(at.reciprocal[k], n);
     for (int i = 0; i < 4; ++i)
@@ -87,7 +88,8 @@ template <class V>
 CDEM_INLINE V no_deeper_than(const DepthsInTet<V>& at) {
   const auto& d = at.depth;
   V deepest = V{} - 1e300;
-  for (const auto& [p, q] : edges_of_tet) {
+  for (int edge = 0; edge < 6; ++edge) {
+    const int p = edges_of_tet[edge][0], q = edges_of_tet[edge][1];
     V on_edge = simd::most<V>(d[0][p], d[0][q]);
     for (int k = 1; k < 4; ++k)
       on_edge = simd::least<V>(on_edge, simd::most<V>(d[k][p], d[k][q]));
@@ -102,9 +104,11 @@ CDEM_INLINE V deepest_in_tet(const DepthsInTet<V>& at) {
   const auto& d = at.depth;
   V deepest = V{} - 1e300;
   for (int i = 0; i < 4; ++i)
-    deepest = simd::most<V>(deepest, simd::least<V>(simd::least<V>(d[0][i], d[1][i]), simd::least<V>(d[2][i], d[3][i])));
+    deepest = simd::most<V>(
+        deepest, simd::least<V>(simd::least<V>(d[0][i], d[1][i]), simd::least<V>(d[2][i], d[3][i])));
   const V zero{}, one = zero + 1.0;
-  for (const auto& [p, q] : edges_of_tet) {
+  for (int edge = 0; edge < 6; ++edge) {
+    const int p = edges_of_tet[edge][0], q = edges_of_tet[edge][1];
     V at_most = simd::most<V>(d[0][p], d[0][q]); // on the edge
     for (int k = 1; k < 4; ++k)
       at_most = simd::least<V>(at_most, simd::most<V>(d[k][p], d[k][q]));
@@ -126,10 +130,12 @@ CDEM_INLINE V deepest_in_tet(const DepthsInTet<V>& at) {
   return deepest;
 }
 
-// Adds the forces of the source in the target's field to both, N. Returns U, J. k: N/m.
+// Adds the forces of the source in the target's field to both, N. Returns U, J. k: N/m. outer: 1 for planes of the target that
+// are surface, else 0; from_outer: N, on the source, by these.
 template <class V>
-CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& source, const V& phi0, const V& k,
-                             TetCorners<V>& on_target, TetCorners<V>& on_source) {
+CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& source, const V& phi0,
+                             const V& k, const std::array<V, 4>& outer, TetCorners<V>& on_target,
+                             TetCorners<V>& on_source, Triple<V>& from_outer) {
   using Mask = simd::MaskOf<V>;
   DepthsInTet<V> at = depths_in_tet<V>(target, source);
   auto& d = at.depth;
@@ -153,7 +159,8 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
       share[plane][i] += here ? pressed : zero;
     }
   }
-  for (const auto& [p, q] : edges_of_tet) {
+  for (int edge = 0; edge < 6; ++edge) {
+    const int p = edges_of_tet[edge][0], q = edges_of_tet[edge][1];
     // The part of the edge inside all planes.
     V from = zero, to = one;
     Mask outside = zero > one;
@@ -200,6 +207,7 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
     if (!simd::any(sum > zero))
       continue;
     const Triple<V>& n = at.normal[plane];
+    from_outer = plus(from_outer, scaled(V(outer[plane] * sum), n));
     Triple<V> moment = scaled(s[0], source[0]);
     for (int i = 1; i < 4; ++i)
       moment = plus(moment, scaled(s[i], source[i]));
@@ -207,7 +215,8 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
       on_source[i] = plus(on_source[i], scaled(s[i], n));
     for (int j = 0; j < 3; ++j) {
       const int own = planes_of_tet[plane][j];
-      const Triple<V>&y1 = target[planes_of_tet[plane][(j + 1) % 3]], &y2 = target[planes_of_tet[plane][(j + 2) % 3]];
+      const Triple<V>&y1 = target[planes_of_tet[plane][(j + 1) % 3]],
+            &y2 = target[planes_of_tet[plane][(j + 2) % 3]];
       const Triple<V> g = cross(n, minus(y2, y1)), arm = minus(moment, scaled(sum, y1));
       on_target[own] = minus(on_target[own], scaled(V(dot(g, arm) * at.reciprocal[plane]), n));
     }
@@ -231,19 +240,15 @@ struct TetPairView {
 
 struct TetPairPress {
   TetPairView of;
-  double phi0[lanes];        // m
-  double stiffness[lanes];   // N/m
-  double energy[lanes];      // J
-  double force[8][3][lanes]; // N
+  std::uint8_t outer[2][lanes]; // a bit for each plane of each tetrahedron that is surface
+  double phi0[lanes];           // m
+  double stiffness[lanes];      // N/m
+  double energy[lanes];         // J
+  double force[8][3][lanes];    // N
+  double from_outer[3][lanes];  // N, on the first, of planes that are surface
 
   std::array<double, 3> at(int corner, int lane) const {
     return {force[corner][0][lane], force[corner][1][lane], force[corner][2][lane]};
-  }
-  geom::Vec3 on_first(int lane) const { // N
-    geom::Vec3 sum = geom::Vec3::Zero();
-    for (int corner = 0; corner < 4; ++corner)
-      sum += geom::Vec3(force[corner][0][lane], force[corner][1][lane], force[corner][2][lane]);
-    return sum;
   }
 };
 
