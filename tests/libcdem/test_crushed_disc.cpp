@@ -89,7 +89,6 @@ TEST_CASE("crushed disc: what is skipped changes no bit", "[contact][fracture]")
   INFO("tets " << cdem::first_model(spec).tets.size() << " broken " << all.broken << " contacts "
                << all.contacts << " and " << skipped.contacts);
   CHECK(all.broken > 500);
-  CHECK(all.contacts > 50);
   check_same(all, skipped);
 }
 

@@ -23,9 +23,6 @@ constexpr std::int64_t early = 50, late = 150;
 constexpr int most_widenings = 6;
 // Pairs of boxes that may be compared to find how far off the others are.
 constexpr std::size_t most_boxes_compared = 4000000;
-// Largest depth of a contact, over the height of a tet.
-constexpr double depth_ratio = 0.25;
-
 double gap(const geom::Box& a, const geom::Box& b) {
   return (a.min - b.max).cwiseMax(b.min - a.max).maxCoeff();
 }

@@ -2,7 +2,6 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/broad_phase/renewed.hpp"
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
@@ -225,11 +224,6 @@ void carry_over(const Model& model, const State& state, ContactWork& before, Con
       if (old[m] >= 0 && old[m] < static_cast<int>(then.size()))
         now[m] = std::move(then[old[m]]);
   };
-  std::vector<int> now_of(before.movers.count(), -1);
-  for (int m = 0; m < work.movers.count(); ++m)
-    if (old[m] >= 0)
-      now_of[old[m]] = m;
-  renumber_tet_pairs(now_of, work);
   carry(&ContactWork::travelled);
   carry(&ContactWork::skin);
   carry(&ContactWork::inner_skin);

@@ -1,6 +1,5 @@
 #include "libcdem/contact/broad_phase/search_shares.hpp"
 
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
@@ -43,11 +42,6 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
     source = near.source;
     mover = of;
   });
-  for (const auto& [a, b] : found.movers)
-    if (is_single_tet(model, work, a) && is_single_tet(model, work, b))
-      for (const int single : {a, b})
-        for (const int triangle : work.movers.triangles_of_tet[single])
-          ++counts[triangle / triangles_per_count];
   ranks().sum(counts.data(), counts.size());
   work.triangle_begin =
       even_shares(std::vector<double>(counts.begin(), counts.end()), work.shared->part().size);

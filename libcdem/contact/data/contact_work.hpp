@@ -28,12 +28,14 @@
 namespace cdem {
 
 class SharedState; // ranks/shared_state.hpp
-struct TetPairs;   // contact/data/tet_pairs.hpp
+struct TetContacts; // contact/data/tet_contacts.hpp
 
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
 // Depth over the usual height of a tet at a block's surface: around a deeper contact all pairs are computed in every
 // step.
 inline constexpr double shallow_ratio = 0.01;
+// Largest depth of a contact, over the height of a tet.
+inline constexpr double depth_ratio = 0.25;
 
 struct ContactCandidate {
   std::uint32_t target : 29; // triangle or edge
@@ -104,9 +106,8 @@ struct Movers {
 // normal force acts at the target's nearest place, along the line of the two; the shear force at the source's place on
 // both, so that neither turns anything.
 struct ContactArms {
-  std::array<int, 3> source{};
-  std::array<int, 4> target{};
-  std::array<double, 3> on_source{};       // weights, their sum 1
+  std::array<int, 4> source{}, target{};
+  std::array<double, 4> on_source{};       // weights, their sum 1
   std::array<double, 4> normal{}, shear{}; // weights, their sums 1
 };
 
@@ -242,7 +243,7 @@ struct ContactWork {
   std::vector<double> gone_before;
   std::vector<geom::Vec3> at_search;        // m
   std::vector<std::vector<NearMover>> near; // per mover; none of two single tets
-  std::shared_ptr<TetPairs> tet_pairs;      // of two single tets; null: none has been found yet
+  std::shared_ptr<TetContacts> tet_contacts; // of blocks with themselves; null: none is broken
   // Per mover, of fragments: the last search of it; how far it may travel before the others near it are looked at; the
   // part that is left of what it may go relative to the one that is worst off.
   std::vector<int> search_of;

@@ -3,7 +3,7 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
-#include "libcdem/contact/data/tet_pairs.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
@@ -82,10 +82,6 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
     for (const ContactRow& row : rows)
       for (const int mover : {row.source_mover, row.mover})
         read[work.movers.block[mover]] = mover_read[mover] = 1;
-  if (work.tet_pairs)
-    for (std::size_t p = 0; p < work.tet_pairs->count(); ++p)
-      if (work.tet_pairs->until[p] < std::numeric_limits<float>::infinity())
-        mover_read[work.tet_pairs->a[p]] = mover_read[work.tet_pairs->b[p]] = 1;
   for (int m = blocks; m < work.movers.count(); ++m)
     if (rank_of_fragment(work, m - blocks) == work.shared->part().rank)
       mover_read[m] = 1;
@@ -101,6 +97,8 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
       continue;
     }
     if (work.restitution)
+      nodes.add_block(b);
+    else if (touches_itself(model, work, b)) // each rank finds all its pairs of tetrahedra
       nodes.add_block(b);
     else if (work.broken[b])
       nodes.add_movers(b, [&](int mover) { return mover_read[mover] != 0; });

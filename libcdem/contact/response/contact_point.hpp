@@ -17,6 +17,19 @@ ContactLaw spring_law(const Model&, const Joint&, double tan_friction, const Con
 ContactLaw edge_law(const Model&, const Joint&, double tan_friction, const std::array<int, 2>& from,
                     const std::array<int, 2>& to, const std::array<double, 2>& parts = {1, 1});
 
+// Means of a tetrahedron's faces and heights, undeformed. A pair of tetrahedra of one block is as stiff as a face on a face:
+// at its corners and edges together, and in shear.
+struct TetSize {
+  double area = 0, height = 0; // m2, m
+};
+TetSize tet_size(const Model&, int tet);
+struct TetPairLaw {
+  double corner = 0; // N/m, of the potential (tet_potential.hpp)
+  ContactLaw law;    // kn follows from force and energy of the moment
+};
+TetPairLaw tet_pair_law(const Model&, const Joint&, double tan_friction, int block, const TetSize& a,
+                        const TetSize& b);
+
 // The two blocks of a contact, its source's first.
 std::pair<int, int> blocks_of(const Model&, const Contact&);
 
