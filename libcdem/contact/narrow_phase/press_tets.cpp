@@ -281,7 +281,8 @@ private:
     at.node = push.node;
     for (int k = 0; k < 8; ++k) {
       at.force[k] = push.corner[k] + push.weight[k] * more;
-      at.stiffness[k] = std::abs(push.weight[k]) * stiffness;
+      // Where forces cancel, the spring is soft and the potential is not.
+      at.stiffness[k] = std::max(std::abs(push.weight[k]) * stiffness, of_pair.corner);
     }
     out_.forces.push_back(at);
     out_.contacts.push_back(c);
