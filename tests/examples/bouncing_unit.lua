@@ -9,7 +9,7 @@ local expect = require "expect"
 local results = cdem.sweep{ script = "../../examples/bouncing_unit/case.lua",
                             set = { { fineness = 3.0, falls = 1, height = 0.0024, tensile_strength = 30e6 },
                                     { fineness = 3.0, falls = 1, height = 0.08 },
-                                    { fineness = 3.0, falls = 1, height = 4, fracture_energy = 100, after = 0.02 } } }
+                                    { fineness = 3.0, falls = 1, height = 6, fracture_energy = 100, after = 0.02 } } }
 for _, result in ipairs(results) do
   if result.exit_code ~= 0 then error("the example ended with exit code " .. result.exit_code) end
   -- Half of the velocity of the low fall comes from gravity on the way left to fall; a step of 1 us counts nothing.
