@@ -202,7 +202,8 @@ void FoundContacts::add_losses() {
   for (const Contact& c : state_.contacts) {
     while (next != work_.now.end() && key(*next) < key(c))
       ++next;
-    if (c.kind != Contact::tets && (next == work_.now.end() || key(*next) != key(c)) && keeps(model_, work_, c))
+    if (c.kind != Contact::tets && (next == work_.now.end() || key(*next) != key(c)) &&
+        keeps(model_, work_, c))
       friction_.add(
           end_loss(c, law_of(model_, c), work_.step * velocity_past(state_, arms_of(model_, state_, c))));
   }

@@ -2,7 +2,8 @@
 -- it is run: looked at, saved, stopped ... None of this may change a bit. run.sh compares the ways.
 local cdem = require "cdem"
 local seed = cdem.parameter{ name = "seed", default = 1 }
-local way = cdem.parameter{ name = "way", default = "plain" } -- plain, empty, read, files, divided, stop, stranger, breaking_stranger
+-- plain, empty, read, files, divided, stop, stranger, breaking_stranger
+local way = cdem.parameter{ name = "way", default = "plain" }
 local beside = way == "stranger" or way == "breaking_stranger"
 local every = cdem.parameter{ name = "callback_every", default = 3 }
 local stop_at = cdem.parameter{ name = "stop_at", default = 7 } -- call of the callback; for stop

@@ -24,7 +24,8 @@ CDEM_INLINE V longest(const std::array<Triple<V>, 4>& v, const Triple<V>& past) 
 
 template <class V>
 CDEM_INLINE void step_kernel(const Node* velocity, const Node& frame, double step,
-                             const std::array<std::vector<int>, 4>& corner, int begin, int end, TetPaths& of) {
+                             const std::array<std::vector<int>, 4>& corner, int begin, int end,
+                             TetPaths& of) {
   constexpr double rounding = 1 + 1e-6;
   const V length = V{} + rounding * step, quarter = V{} + 0.25;
   const Triple<V> past{V{} + frame.x, V{} + frame.y, V{} + frame.z};
@@ -62,7 +63,8 @@ CDEM_INLINE void awake_kernel(const TetPaths& of, const WatchedPairs& pairs, std
     const auto here = static_cast<int>(std::min<std::int64_t>(pairs_per_word, count - first));
     const int *const a = pairs.a.data() + first, *const b = pairs.b.data() + first;
     const float *const then_x = pairs.then[0].data() + first, *const then_y = pairs.then[1].data() + first,
-                       *const then_z = pairs.then[2].data() + first, *const then = pairs.then[3].data() + first,
+                       *const then_z = pairs.then[2].data() + first,
+                       *const then = pairs.then[3].data() + first,
                        *const allowed = pairs.allowed.data() + first;
     float left[pairs_per_word];
     for (int i = 0; i < here; ++i) {
@@ -70,8 +72,8 @@ CDEM_INLINE void awake_kernel(const TetPaths& of, const WatchedPairs& pairs, std
       const float px = dx - then_x[i], py = dy - then_y[i], pz = dz - then_z[i];
       const float swings = swing[a[i]] + swing[b[i]];
       left[i] = allowed[i] - std::sqrt(px * px + py * py + pz * pz) - (swings - then[i]) -
-                rounding * (std::abs(dx) + std::abs(dy) + std::abs(dz) + swings +
-                            std::abs(x[a[i]]) + std::abs(y[a[i]]) + std::abs(z[a[i]]));
+                rounding * (std::abs(dx) + std::abs(dy) + std::abs(dz) + swings + std::abs(x[a[i]]) +
+                            std::abs(y[a[i]]) + std::abs(z[a[i]]));
     }
     std::uint64_t bits = 0;
     for (int i = 0; i < here; ++i)

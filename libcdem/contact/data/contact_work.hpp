@@ -27,7 +27,7 @@
 
 namespace cdem {
 
-class SharedState; // ranks/shared_state.hpp
+class SharedState;  // ranks/shared_state.hpp
 struct TetContacts; // contact/data/tet_contacts.hpp
 
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
@@ -241,8 +241,8 @@ struct ContactWork {
   // m, per mover, of fragments: how far, at most, nodes were at the last search from where they were when the fragment was
   // searched for what it may do to itself.
   std::vector<double> gone_before;
-  std::vector<geom::Vec3> at_search;        // m
-  std::vector<std::vector<NearMover>> near; // per mover; none of two single tets
+  std::vector<geom::Vec3> at_search;         // m
+  std::vector<std::vector<NearMover>> near;  // per mover; none of two single tets
   std::shared_ptr<TetContacts> tet_contacts; // of blocks with themselves; null: none is broken
   // Per mover, of fragments: the last search of it; how far it may travel before the others near it are looked at; the
   // part that is left of what it may go relative to the one that is worst off.

@@ -87,8 +87,8 @@ private:
   std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
   Law law_;
   std::array<std::vector<Nearest>, 3>
-      awake_; // of a row's semi-springs: their places on the targets that were looked at
-  std::array<Facet, 4> facets_;        // by the last two bits of a triangle's number
+      awake_;                   // of a row's semi-springs: their places on the targets that were looked at
+  std::array<Facet, 4> facets_; // by the last two bits of a triangle's number
   std::array<int, 4> facet_of_{-1, -1, -1, -1};
 };
 

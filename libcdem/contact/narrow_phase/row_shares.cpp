@@ -1,9 +1,9 @@
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 
 #include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
