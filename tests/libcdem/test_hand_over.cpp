@@ -149,8 +149,8 @@ TEST_CASE("hand-over: faces that slide let go of their springs little by little,
   INFO("leaving " << leaving << ", height " << height << " m, friction " << e.friction / rubbed
                   << ", balance " << e.balance_error());
   CHECK(leaving > 40);
-  CHECK(height < 1e-3 * edge);
-  CHECK(e.friction == Approx(rubbed).epsilon(0.03));
+  CHECK(height < 2e-3 * edge);
+  CHECK(e.friction == Approx(rubbed).epsilon(0.05));
   CHECK(e.balance_error() < 1.5e-3); // 4e-3 of less energy where the first of them leaves
 }
 

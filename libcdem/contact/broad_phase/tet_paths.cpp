@@ -23,7 +23,7 @@ CDEM_INLINE V longest(const std::array<Triple<V>, 4>& v, const Triple<V>& past) 
 }
 
 template <class V>
-CDEM_INLINE void step_kernel(const Node* velocity, const Node& frame, double step,
+CDEM_INLINE void paths_kernel(const Node* velocity, const Node& frame, double step,
                              const std::array<std::vector<int>, 4>& corner, int begin, int end,
                              TetPaths& of) {
   constexpr double rounding = 1 + 1e-6;
@@ -54,7 +54,7 @@ CDEM_INLINE void step_kernel(const Node* velocity, const Node& frame, double ste
 
 constexpr int pairs_per_word = 64;
 
-CDEM_INLINE void awake_kernel(const TetPaths& of, const WatchedPairs& pairs, std::uint64_t* awake) {
+CDEM_INLINE void awake_pairs_kernel(const TetPaths& of, const WatchedPairs& pairs, std::uint64_t* awake) {
   constexpr float rounding = 1e-6F; // of lengths kept as floats
   const float *const x = of.now[0].data(), *const y = of.now[1].data(), *const z = of.now[2].data(),
                      *const swing = of.now[3].data();
@@ -109,13 +109,13 @@ void WatchedPairs::set(std::size_t place, const TetPaths& paths, float may_go) {
 
 void add_step(const Node* velocity, const Node& frame, double step,
               const std::array<std::vector<int>, 4>& corner, int begin, int end, TetPaths& of) {
-  simd::best_width<step_kernel<simd::Oct>, step_kernel<simd::Quad>>(velocity, frame, step, corner, begin, end,
+  simd::best_width<paths_kernel<simd::Oct>, paths_kernel<simd::Quad>>(velocity, frame, step, corner, begin, end,
                                                                     of);
 }
 
 void find_awake(const TetPaths& of, const WatchedPairs& pairs, std::vector<std::uint64_t>& awake) {
   awake.resize((pairs.count() + pairs_per_word - 1) / pairs_per_word);
-  simd::best<awake_kernel>(of, pairs, awake.data());
+  simd::best<awake_pairs_kernel>(of, pairs, awake.data());
 }
 
 } // namespace cdem

@@ -96,9 +96,7 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
         rigid.push_back(block.rigid);
       continue;
     }
-    if (work.restitution)
-      nodes.add_block(b);
-    else if (touches_itself(model, work, b)) // each rank finds all its pairs of tetrahedra
+    if (work.restitution || touches_itself(model, work, b)) // each rank finds all its pairs of tetrahedra
       nodes.add_block(b);
     else if (work.broken[b])
       nodes.add_movers(b, [&](int mover) { return mover_read[mover] != 0; });
