@@ -263,7 +263,13 @@ private:
     const double pressed = push.force > 0 ? 2 * energy / push.force : 0;
     law.kn = pressed > 0 ? push.force / pressed : 0;
     c.stiffness = law.kn;
-    if (!(before && work_.step == 0)) {
+    if (!(push.force > 0)) { // no surface presses: what is aside only
+      if (before)
+        lose(*before, law);
+      c.depth = c.reference_penetration;
+      c.shear = geom::Vec3::Zero();
+      c.damping = 0;
+    } else if (!(before && work_.step == 0)) {
       ContactMotion motion;
       motion.normal = push.normal;
       motion.depth = c.reference_penetration + pressed;
