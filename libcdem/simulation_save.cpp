@@ -107,7 +107,7 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   if (ends) {
     read(a, state_at_end);
     require_fits(as_built ? model : model_then, state_at_end);
-    end_then.emplace();
+    end_then = End();
     archive(a, end_then->point);
     archive(a, end_then->step_choice);
   }
