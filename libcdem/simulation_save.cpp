@@ -143,7 +143,7 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   }
 }
 
-// What the run before has reported and the next step finds again is taken off the log.
+// Takes off the log whatever the run before has reported and the next step finds again.
 RestartPoint Simulation::Impl::take_up(End before) {
   RestartPoint point = std::move(before.point);
   if (const std::shared_ptr<const StateShares> shares = last_good.parted) {

@@ -243,7 +243,7 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking);
   geom::Vec3 acting = work.spring_force[p] + water_force(state, point, p);
   if (c.damped) {
-    // What damping takes over a step is the mean of its forces before and after it times the motion.
+    // Damping takes in a step the mean of its forces before and after it, times the motion.
     const geom::Vec3 rate = vec(turned_back(turn, triple(jump_at(point, state.velocity.data()))));
     geom::Vec3& viscous = work.viscous[p];
     const geom::Vec3 before = viscous;

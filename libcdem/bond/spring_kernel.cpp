@@ -171,7 +171,7 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
       store_triples(springs.viscous, chosen(here, viscous, viscous_before));
     }
   }
-  // Of those that leave, the forces of the step before are still asked for.
+  // The forces of the step before are still asked for where springs leave.
   const Triples force = chosen(leaves, before, spring_force<Oct>(kn, ks, n, stretch, held));
   store_triples(springs.force, force);
   if (springs.acting)

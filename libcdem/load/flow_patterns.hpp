@@ -1,5 +1,5 @@
-// What flows find on the faces (refresh_flows), as long as it holds: between two looks, where the model changes, and where
-// a stage is left.
+// The pattern that a flow finds on the faces (refresh_flows). It holds between two looks, also where the model changes and
+// where a stage is left.
 #pragma once
 
 #include "libcdem/load/resolve.hpp"

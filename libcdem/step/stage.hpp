@@ -175,7 +175,7 @@ private:
   std::vector<int> slid_; // interfaces to renew before the next step
   bool begins_ = true;    // no step of this stage, or of one that it goes on from, has been made before
   bool kept_end_ = false;
-  // Of the state that was kept last: s, Workspace::strain_step; and the log.
+  // Workspace::strain_step (s) and the log, as they were for the state that was kept last.
   double good_strain_step_ = 0;
   std::size_t good_breaks_ = 0;
   OneWayEnergies good_one_way_;

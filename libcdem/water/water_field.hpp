@@ -20,7 +20,7 @@ struct WaterPoint {
   double surface = std::numeric_limits<double>::infinity();
 };
 
-// What waves that keep their shape are made for.
+// The bed that waves which keep their shape are made for.
 struct FlatBed {
   double z = 0, level = 0; // m; of still water
 };

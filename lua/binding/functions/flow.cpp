@@ -26,7 +26,7 @@ const Record<Flow> stream{
      {water_density(), &Flow::water_density},
      {flag("new_faces").standard().doc("faces opened by cracks take the pressure too"), &Flow::new_faces}}};
 
-// What a flow has that is not searched for.
+// The members of a flow that are not searched for.
 const Record<Flow> steady{
     {{number_or_function("velocity", "(time: number): number").at_least(0).unit("m/s"), &Flow::velocity},
      {object("water", "Water")

@@ -1,4 +1,4 @@
-// What a function of the script answers, checked. Errors name the call as the user would write it and the function's
+// The answer of a function of the script, checked. Errors name the call as the user would write it and the function's
 // place: "velocity(0.5) of case.lua:7".
 #pragma once
 
