@@ -26,12 +26,13 @@ std::string name(InstructionSet); // as in CDEM_INSTRUCTION_SET
 namespace simd {
 
 #if defined(__x86_64__)
+// noipa: GCC 12 left out calls of kernels that it took for functions without an effect.
 template <auto& kernel, class... Arguments>
-__attribute__((target("arch=x86-64-v4"))) auto with_avx512(Arguments... arguments) {
+__attribute__((noipa, target("arch=x86-64-v4"))) auto with_avx512(Arguments... arguments) {
   return kernel(arguments...);
 }
 template <auto& kernel, class... Arguments>
-__attribute__((target("arch=x86-64-v3"))) auto with_avx2(Arguments... arguments) {
+__attribute__((noipa, target("arch=x86-64-v3"))) auto with_avx2(Arguments... arguments) {
   return kernel(arguments...);
 }
 #endif
