@@ -15,7 +15,7 @@ constexpr double depth_tolerance = 1e-9;
 
 // A rigid convex block, or a tetrahedron of any other block, as it stands now.
 struct ConvexPart {
-  int block = 0;
+  int block = 0, tet = -1;
   geom::Polyhedron shape;
   std::vector<geom::Plane> planes;
 };
@@ -37,19 +37,27 @@ geom::Polyhedron tet_now(const Model& model, const State& state, const geom::Tet
 
 std::vector<ConvexPart> convex_parts(const Model& model, const State& state) {
   std::vector<ConvexPart> parts;
-  const auto add = [&](int block, geom::Polyhedron&& shape) {
-    parts.push_back({block, std::move(shape), {}});
+  const auto add = [&](int block, int tet, geom::Polyhedron&& shape) {
+    parts.push_back({block, tet, std::move(shape), {}});
     parts.back().planes = geom::face_planes(parts.back().shape);
   };
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
     if (block.convex() && block.rigid >= 0)
-      add(b, block_now(model, state, block));
+      add(b, -1, block_now(model, state, block));
     else
       for (int tet = block.tet_begin; tet < block.tet_end; ++tet)
-        add(b, tet_now(model, state, model.tets[tet]));
+        add(b, tet, tet_now(model, state, model.tets[tet]));
   }
   return parts;
+}
+
+// Whether both are tetrahedra of one mesh that hang together at a node.
+bool hang_together(const Model& model, const ConvexPart& a, const ConvexPart& b) {
+  if (a.block != b.block)
+    return false;
+  const geom::Tet &m = model.tets[a.tet], &n = model.tets[b.tet];
+  return std::find_first_of(m.begin(), m.end(), n.begin(), n.end()) != m.end();
 }
 
 } // namespace
@@ -63,7 +71,7 @@ Overlap overlap(const Model& model, const State& state) {
   std::map<std::pair<int, int>, geom::CommonPart> common; // of two blocks; centroid: times the volume
   for (const auto& [i, j] : geom::touching_pairs(boxes)) {
     const ConvexPart &a = parts[i], &b = parts[j];
-    if (a.block == b.block)
+    if (hang_together(model, a, b))
       continue;
     const double depth = depth_tolerance * std::min(model.blocks[a.block].size, model.blocks[b.block].size);
     if (geom::apart(a.planes, b.shape, depth) || geom::apart(b.planes, a.shape, depth))

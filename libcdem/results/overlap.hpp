@@ -1,7 +1,7 @@
-// Volume of the overlap of two blocks in their present positions, which contact allows.
+// Volume of the overlap of two blocks, or of a meshed block with itself, in their present positions, which contact allows.
 //
 // The common part of two convex bodies is convex: one cut by all the faces of the other. A block that has deformed need not
-// be convex any more, and is taken tetrahedron by tetrahedron, as a mesh is.
+// be convex any more, and is taken tetrahedron by tetrahedron, as a mesh is. Of one block, tetrahedra that have a node in common do not count.
 #pragma once
 
 #include "libcdem/state/state.hpp"
@@ -11,7 +11,7 @@
 namespace cdem {
 
 struct Overlap {
-  double volume = 0;                     // m3, of all pairs of blocks
+  double volume = 0;                     // m3, of all pairs of blocks and of each block with itself
   std::int64_t pairs = 0;                // of blocks that have some in common
   double largest = 0;                    // m3, of one pair
   std::string largest_a, largest_b;      // its blocks, as a user knows them; empty without

@@ -89,3 +89,22 @@ TEST_CASE("overlap of two boxes that lie askew is found wherever their corners a
               Approx(depth * (1 - off)).epsilon(1e-6).margin(turn + 1e-9));
       }
 }
+
+TEST_CASE("overlap of a body with itself is that of its tetrahedra", "[overlap][fracture]") {
+  cdem::Bonding everywhere;
+  everywhere.everywhere = true;
+  System s(build({meshed("mesh", geom::box_mesh({2, 1, 1}, {2, 2, 2}), everywhere)}));
+  CHECK(cdem::overlap(s.model, s.state).volume == 0);
+  for (const geom::Tet& tet : s.model.tets) {
+    double x = 0;
+    for (const int n : tet)
+      x += s.model.node_position[n].x() / 4;
+    if (x > 1)
+      for (const int n : tet)
+        s.state.displacement[n] = cdem::node({-0.1, 0.05, 0});
+  }
+  const cdem::Overlap found = cdem::overlap(s.model, s.state);
+  CHECK(found.volume == Approx(0.1 * 0.95));
+  CHECK(found.pairs == 1);
+  CHECK(found.largest_a == found.largest_b);
+}

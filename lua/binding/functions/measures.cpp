@@ -51,12 +51,13 @@ const Record<EnergyLedger> energy_record{
 
 const Record<Overlap> overlap_record{
     "Overlap",
-    "Volume that two blocks occupy at once, as they stand now.",
-    {{number("volume", "m3").doc("of all pairs of blocks"), &Overlap::volume},
+    "Volume that two blocks, or two pieces of one, occupy at once, as they stand now.",
+    {{number("volume", "m3").doc("of all pairs of blocks, and of each block with itself"), &Overlap::volume},
      {integer("pairs"), &Overlap::pairs},
      {number("largest", "m3").doc("of one pair"), &Overlap::largest},
      {vec3("place", "m").doc("of that pair"), &Overlap::place},
-     {list("blocks", text_type(), 2).doc("names of that pair; nil where nothing overlaps"),
+     {list("blocks", text_type(), 2)
+          .doc("names of that pair, twice the same for pieces of one block; nil where nothing overlaps"),
       [](const Overlap& o) {
         return o.pairs > 0 ? Value(Table::list({o.largest_a, o.largest_b})) : Value();
       }}}};
@@ -203,8 +204,9 @@ void bind_measures(Module& m) {
       .ordered_or_named();
   model.add("fields", "Names that max, min, mean, at and probe understand.", {}, fields, "string[]");
   model.add("energy", "Energy ledger.", {}, energy, "cdem.Energy");
-  model.add("overlap", "How far contacts let blocks into each other, as a volume.", {}, overlap,
-            "cdem.Overlap");
+  model.add("overlap",
+            "How far contacts let blocks into each other, and the pieces of a broken body, as a volume.", {},
+            overlap, "cdem.Overlap");
   model.add("blocks", "One table per block.", {}, blocks, "cdem.BlockState[]");
   model.add("breaks", "One table per broken bond, the oldest first.", {}, breaks, "cdem.Break[]");
   model.add("history",
