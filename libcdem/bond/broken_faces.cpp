@@ -78,6 +78,7 @@ public:
   // spring: the place of the face's first one. slips: of the model.
   void advance(bool breaking, std::int64_t spring, FaceStateBatch& state, FaceSlipBatch* slips,
                Vec (&force)[3], FaceSums& sums) {
+    part_ = 1 - state.let_go[lane_];
     FaceSlip slip = state.slip < 0 ? FaceSlip{} : slips[state.slip].at(lane_);
     bool whole_face = true;
     for (int point = 0; point < 3; ++point) {
@@ -101,7 +102,7 @@ public:
   }
 
 private:
-  double kn() const { return batch_.kn[lane_]; }
+  double kn() const { return part_ * batch_.kn[lane_]; }
   double ks() const { return law_.shear_ratio * kn(); }
   geom::Vec3 moved(int point) {
     return now_.gap[point] - face_frame(batch_, lane_, motion_, motion_.step).gap[point];
@@ -141,32 +142,17 @@ private:
   // A face without any bond left: handed over, or looked at whether it still may be two planes without end.
   void leave(std::int64_t face, FaceStateBatch& state, FaceSums& sums) {
     const double size = std::sqrt(3 * batch_.area[lane_]);
-    if (leaves(state, lane_)) {
-      hand_over(face, state, sums);
-      return;
-    }
     if (law_.hands_over) {
-      if (!law_.hand_over_due || !is_gone(now_, size))
-        return;
-      const bool open = response_[0].opening > 0 && response_[1].opening > 0 && response_[2].opening > 0;
-      set_hand_over(state, lane_, open ? HandOver::done : HandOver::leaving);
-      sums.hands_over = true;
+      double energy = 0;
+      for (int point = 0; point < 3; ++point)
+        energy += response_[point].energy + 0.5 * response_[point].force.dot(moved(point));
+      if (law_.hand_over_due && (leaves(state, lane_) || is_gone(now_, size)))
+        sums.friction += let_go(now_, size, energy, lane_, state, sums);
       return;
     }
     for (int point = 0; point < 3; ++point)
       if (response_[point].opening < 0 && now_.gap[point].squaredNorm() > size * size)
         sums.astray = face;
-  }
-
-  void hand_over(std::int64_t face, FaceStateBatch& state, FaceSums& sums) {
-    geom::Vec3 pull[3];
-    double energy = 0;
-    for (int point = 0; point < 3; ++point) {
-      pull[point] = response_[point].force;
-      energy += response_[point].energy;
-    }
-    sums.left.push_back({face, at_corners(pull), kn(), energy});
-    set_hand_over(state, lane_, HandOver::done);
   }
 
   const FaceBatch& batch_;
@@ -175,9 +161,24 @@ private:
   const FaceLaw& law_;
   Frame now_;
   Response response_[3];
+  double part_ = 1; // of its springs
 };
 
 } // namespace
+
+double let_go(const FaceFrame& f, double size, double energy, int lane, FaceStateBatch& state,
+              FaceSums& sums) {
+  bool open = true;
+  for (const geom::Vec3& gap : f.gap)
+    open = open && f.in_axes(gap)[2] > 0;
+  double& part = state.let_go[lane];
+  const double before = part;
+  part = open ? 1 : std::max(before, let_go_of(f, size));
+  const double lost = (part - before) / (1 - before) * energy;
+  sums.hands_over = sums.hands_over || part >= 1 || !leaves(state, lane);
+  set_hand_over(state, lane, part >= 1 ? HandOver::done : HandOver::leaving);
+  return lost;
+}
 
 void one_by_one(const FaceBatch& batch, unsigned faces, const FaceMotion& motion, const FaceLaw& law,
                 bool breaking, std::int64_t first_spring, FaceStateBatch& state, FaceSlipBatch* slips,
@@ -198,7 +199,7 @@ FaceSpring face_spring(const FaceBatch& batch, const FaceNodes& nodes, int point
   spring.normal = f.normal;
   if (handed_over(state, lane))
     return spring;
-  const double kn = batch.kn[lane], ks = law.shear_ratio * kn;
+  const double kn = (1 - state.let_go[lane]) * batch.kn[lane], ks = law.shear_ratio * kn;
   Plane2 s{slip.value[point][0], slip.value[point][1]};
   const Response r = is_intact(state.mode[point][lane]) ? stretched(kn, ks, f, point)
                                                         : contact(kn, ks, law.tan_friction, f, point, s);

@@ -158,8 +158,9 @@ FaceSpring cohesive_spring(const FaceBatch& batch, int lane, const FaceFrame& f,
     const CohesivePoint<double> at = cohesive_point(face, point);
     const Triple<double> gap = triple(f.in_axes(f.gap[point]));
     const CohesiveResponse<double> r = cohesive_response<double>(law, at, gap, false);
-    spring.force = f.in_space(batch.area[lane] * vec(r.traction));
-    spring.energy = batch.area[lane] * cohesive_stored<double>(law, at, gap, r);
+    const double area = (1 - state.let_go[lane]) * batch.area[lane];
+    spring.force = f.in_space(area * vec(r.traction));
+    spring.energy = area * cohesive_stored<double>(law, at, gap, r);
   }
   return spring;
 }

@@ -1,5 +1,6 @@
 #include "libcdem/bond/cracking_faces.hpp"
 
+#include "libcdem/bond/broken_faces.hpp"
 #include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/bond/cohesive_law.hpp"
 #include "libcdem/bond/sliding_faces.hpp"
@@ -18,14 +19,14 @@ template <class V>
 struct Group {
   int count = 0;
   int face[width<V>], a[3][width<V>], b[3][width<V>]; // and its nodes' places
-  V area, k;                                          // m2, a third of a face; Pa/m
+  V area, k;                                          // m2, a third of a face, of which its springs act; Pa/m
 };
 
 template <class V>
 CDEM_INLINE Group<V> group_of(const CohesiveChunk& chunk, const int* faces, int count) {
   Group<V> g;
   g.count = std::min(count, width<V>);
-  V kn;
+  V kn, let_go;
   for (int lane = 0; lane < width<V>; ++lane) {
     const int face = g.face[lane] = faces[std::min(lane, g.count - 1)];
     const FaceBatch& batch = chunk.batches[face / lanes];
@@ -35,8 +36,10 @@ CDEM_INLINE Group<V> group_of(const CohesiveChunk& chunk, const int* faces, int 
     }
     g.area[lane] = batch.area[face % lanes];
     kn[lane] = batch.kn[face % lanes];
+    let_go[lane] = chunk.state[face / lanes].let_go[face % lanes];
   }
   g.k = kn / g.area;
+  g.area *= 1.0 - let_go;
   return g;
 }
 
@@ -237,11 +240,11 @@ public:
   // It has lost its strength and opened: what it still stores, J, is let go of, less the half step of work that its pull (N,
   // at its points) would have done. From now on it is a contact on its own plane, which closes where its sides stand now,
   // or at a gap of zero if they are further apart.
-  void separate(const geom::Vec3 (&pull)[3]) {
+  double separate(const std::array<geom::Vec3, 3>& pull) { // J, what breaking takes
     const FaceFrame before = face_frame(batch_, lane_, chunk_.motion, chunk_.motion.step);
-    chunk_.sums.breaking += stored();
+    double taken = stored();
     for (int point = 0; point < 3; ++point) {
-      chunk_.sums.breaking -= 0.5 * pull[point].dot(now_.gap[point] - before.gap[point]);
+      taken -= 0.5 * pull[point].dot(now_.gap[point] - before.gap[point]);
       const geom::Vec3 gap = now_.in_axes(now_.gap[point]);
       cohesive_.offset[point] = cohesive_.start[point] = {};
       cohesive_.slip[point] = {gap.x(), gap.y(), std::min(0.0, gap.z())};
@@ -249,6 +252,7 @@ public:
     }
     cohesive_.plane = {0, 0, 1};
     state_.stage[lane_] = FaceStage::separated;
+    return taken;
   }
 
   // Nothing is between its sides any more.
@@ -260,26 +264,30 @@ public:
     chunk_.sums.hands_over = true;
   }
 
-  // The contact of the surface takes over its force.
-  void hand_over(const geom::Vec3 (&pull)[3]) {
-    chunk_.sums.left.push_back({face_, at_corners(pull), batch_.kn[lane_], stored()});
-    state_.stage[lane_] = FaceStage::parted;
-    set_hand_over(state_, lane_, HandOver::done);
-  }
-
-  void leave() {
-    set_hand_over(state_, lane_, HandOver::leaving);
-    chunk_.sums.hands_over = true;
+  // Contacts around it may begin; its springs let go by and by.
+  double leave() { // J, lost
+    const FaceFrame before = face_frame(batch_, lane_, chunk_.motion, chunk_.motion.step);
+    double energy = stored();
+    for (int point = 0; point < 3; ++point)
+      energy += 0.5 * spring(point).force.dot(now_.gap[point] - before.gap[point]);
+    const double lost =
+        cdem::let_go(now_, std::sqrt(3 * batch_.area[lane_]), energy, lane_, state_, chunk_.sums);
+    if (handed_over(state_, lane_))
+      state_.stage[lane_] = FaceStage::parted;
+    return lost;
   }
 
 private:
   double stored() const { // J
-    Joint room;
     double energy = 0;
     for (int point = 0; point < 3; ++point)
-      energy += cohesive_spring(batch_, lane_, now_, point, chunk_.joints.of(face_, room), state_, cohesive_)
-                    .energy;
+      energy += spring(point).energy;
     return energy;
+  }
+
+  FaceSpring spring(int point) const {
+    Joint room;
+    return cohesive_spring(batch_, lane_, now_, point, chunk_.joints.of(face_, room), state_, cohesive_);
   }
 
   const CohesiveChunk& chunk_;
@@ -358,12 +366,6 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const SofteningJoint<
     memories.advance(point, r);
   }
   memories.keep(chunk.cohesive);
-  FaceSums& sums = chunk.sums;
-  for (int lane = 0; lane < g.count; ++lane) {
-    sums.friction += friction[lane];
-    sums.breaking += breaking[lane];
-    sums.crack += CrackEnergy{tension[lane], shear[lane]};
-  }
   if (const unsigned any_ended = ended[0] | ended[1] | ended[2]; any_ended != 0) {
     const T3 m_in_space = s.now.in_space(m);
     for (unsigned bits = any_ended; bits != 0; bits &= bits - 1) {
@@ -382,20 +384,25 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const SofteningJoint<
     const bool lost = (bits_without >> lane & 1) != 0, opened_now = lost && (bits_open >> lane & 1) != 0,
                separates = opened_now && state.stage[g.face[lane] % lanes] == FaceStage::cracking,
                leaving = leaves(state, g.face[lane] % lanes), may_leave = lost && chunk.due;
-    if (!separates && !leaving && !may_leave)
+    if (!separates && !may_leave)
       continue;
     EndOfFace end(chunk, g.face[lane]);
-    const geom::Vec3 own[3] = {lane_of(pull[0], lane), lane_of(pull[1], lane), lane_of(pull[2], lane)};
     if (separates) {
-      end.separate(own);
+      breaking[lane] +=
+          end.separate({lane_of(pull[0], lane), lane_of(pull[1], lane), lane_of(pull[2], lane)});
       let_go |= 1u << lane;
-    } else if (leaving) {
-      end.hand_over(own);
-    } else if (opened_now && end.gone()) {
-      end.end();
-    } else if (chunk.hands_over && end.gone()) {
-      end.leave();
+    } else if (leaving || end.gone()) {
+      if (opened_now)
+        end.end();
+      else if (chunk.hands_over)
+        friction[lane] += end.leave();
     }
+  }
+  FaceSums& sums = chunk.sums;
+  for (int lane = 0; lane < g.count; ++lane) {
+    sums.friction += friction[lane];
+    sums.breaking += breaking[lane];
+    sums.crack += CrackEnergy{tension[lane], shear[lane]};
   }
   if (let_go != 0) {
     const MaskOf<V> parted = simd::lanes_of<V>(let_go);

@@ -168,9 +168,7 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
       unsigned lane_by_lane = may_break & used;
       if (state[i].slip >= 0) {
         for (int lane = 0; lane < lanes; ++lane)
-          lane_by_lane = leaves(state[i], lane)        ? lane_by_lane | 1u << lane
-                         : handed_over(state[i], lane) ? lane_by_lane & ~(1u << lane)
-                                                       : lane_by_lane;
+          lane_by_lane = handed_over(state[i], lane) ? lane_by_lane & ~(1u << lane) : lane_by_lane;
         lane_by_lane |= in_parts<V>([&](auto part) __attribute__((always_inline)) {
           return slide<V, part>(batch, motion, here, strengths.tan_friction, lane_by_lane, i * lanes,
                                 gaps.corner, gaps.point, state[i], slips[state[i].slip], force, sums);

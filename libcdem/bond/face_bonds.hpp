@@ -42,15 +42,6 @@ struct FaceBreak {
   double slip[2] = {}, shear[2] = {};             // m, N, as in FaceSlip, right after
 };
 
-// A face whose springs act for the last time: contacts take over its force.
-struct FaceLeft {
-  std::int64_t face = 0; // batch * lanes + lane, from the range's first batch on
-  std::array<geom::Vec3, 3> force{geom::Vec3::Zero(), geom::Vec3::Zero(),
-                                  geom::Vec3::Zero()}; // N, on side a, at its corners
-  double stiffness = 0;                                // N/m, normal, of each spring
-  double energy = 0;                                   // J, stored
-};
-
 struct FaceSums {
   double friction = 0; // J, this step
   double breaking = 0; // J, this step
@@ -63,8 +54,7 @@ struct FaceSums {
   // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;
   // -1: none. Only where nothing takes it over.
   std::int64_t astray = -1;
-  bool hands_over = false; // some face begins to leave, or leaves without a force, in this step
-  std::vector<FaceLeft> left;
+  bool hands_over = false; // some face begins to leave, or has left, in this step
 };
 
 // What the nodes of a chunk do, one entry for each of its places.

@@ -5,6 +5,7 @@
 #include "libcdem/bond/face_bonds.hpp"
 #include "libcdem/state/places.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace cdem {
@@ -66,17 +67,26 @@ inline FaceFrame face_frame(const FaceNodes& nodes, const Node* position, const 
       nodes, [&](int i) { return vec(position[i]); }, [&](int i) { return vec(displacement[i]); });
 }
 
-// Parts of a face's size by which its sides have parted, or slid away sideways, at all its points, where it is handed over.
-inline constexpr double parted_from = 1e-3, slid_from = 0.2;
+// Parts of a face's size by which its sides have parted, or slid away sideways, at one of its points, where it is handed over.
+// Until then its own springs are the contact between them: they know where its sides met, and so close where they opened.
+inline constexpr double parted_from = 0.01, slid_from = 0.01;
+
+// Part of its size by which it has slid away where nothing of its springs acts any more.
+inline constexpr double slid_off_from = 0.05;
+
+// Part of the springs of a face that leaves which has let go. size: m.
+inline double let_go_of(const FaceFrame& f, double size) {
+  double slid = 0; // m
+  for (const geom::Vec3& gap : f.gap)
+    slid = std::max(slid, f.in_axes(gap).head<2>().norm());
+  return std::clamp((slid / size - slid_from) / (slid_off_from - slid_from), 0.0, 1.0);
+}
 
 inline bool is_gone(const FaceFrame& f, double size) { // size: m
-  bool apart = true, away = true;
-  for (const geom::Vec3& gap : f.gap) {
+  return std::any_of(f.gap.begin(), f.gap.end(), [&](const geom::Vec3& gap) {
     const geom::Vec3 g = f.in_axes(gap);
-    apart = apart && g[2] > parted_from * size;
-    away = away && g.head<2>().norm() > slid_from * size;
-  }
-  return apart || away;
+    return g[2] > parted_from * size || g.head<2>().norm() > slid_from * size;
+  });
 }
 
 } // namespace cdem

@@ -43,8 +43,8 @@ CDEM_INLINE simd::VecOf<V> part_of(const simd::Vec& v) {
 }
 
 // Advances the broken springs of faces of a batch, from `first` on, and replaces their force on side a, N; `lane_by_lane`: faces of
-// the batch that are left alone. corner, point: m, gaps there. slips: of the batch. Returns the faces that part or slide away
-// and are to be handed over, a bit each.
+// the batch that are left alone. corner, point: m, gaps there. slips: of the batch. Returns the faces that have parted or slid
+// away, a bit each, in steps in which they may leave.
 template <class V, int first>
 CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, const FaceLaw& law,
                            const simd::Oct& tan_of_all, unsigned lane_by_lane, std::int64_t first_face,
@@ -80,7 +80,8 @@ CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, con
     return 0;
   }
   const V one = zero + 1.0, tan_friction = simd::part_of<V, first>(tan_of_all),
-          kn = load_wide<V>(batch.kn + first), ks = law.shear_ratio * kn;
+          kn = load_wide<V>(batch.kn + first) * (one - load_wide<V>(state.let_go + first)),
+          ks = law.shear_ratio * kn;
   VecOf<V> x[3], d[3];
   for (int k = 0; k < 3; ++k) {
     x[k] = gather_wide<V>(motion.position, batch.place_a[k] + first);
@@ -144,14 +145,13 @@ CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, con
   }
   if (!law.hand_over_due)
     return 0;
-  M apart = all, away = all;
+  M is_gone{};
   const V size = root(area);
   for (int point = 0; point < 3; ++point) {
     const V &u = along[point][0], &v = along[point][1];
-    apart &= opening[point] > parted_from * size;
-    away &= u * u + v * v > (slid_from * slid_from) * area;
+    is_gone |= (opening[point] > parted_from * size) | (u * u + v * v > (slid_from * slid_from) * area);
   }
-  return bits_of(M(apart | away)) << first;
+  return bits_of(M(all & is_gone)) << first;
 }
 
 } // namespace cdem

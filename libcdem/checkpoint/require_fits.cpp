@@ -49,6 +49,16 @@ void check_contacts(const Model& model, const State& state) {
     require_below(std::string("contacts.") + field, t, triangles);
   };
   for (const Contact& c : state.contacts) {
+    if (c.kind == Contact::tets) {
+      require_below("contacts.source", c.source, model.tets.size());
+      require_below("contacts.target", c.target, model.tets.size());
+      const int block = model.tet_block[c.source];
+      if (model.tet_block[c.target] != block || !contact_joint(model, block, block))
+        refuse_state("contacts", "of two tetrahedra that have no law of contact");
+      continue;
+    }
+    if (c.kind > Contact::tets)
+      refuse_state("contacts", "of no kind");
     triangle("source", c.source / 3);
     if (c.kind == Contact::spring) {
       triangle("target", c.target);

@@ -4,12 +4,13 @@
 #include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/found_contacts.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
+#include "libcdem/contact/narrow_phase/press_tets.hpp"
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
-#include "libcdem/contact/narrow_phase/tets_awake.hpp"
 #include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
@@ -47,33 +48,11 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
     const double gone = gone_at_most(model, work, m);
     if (gone > work.undefined_pair_margin || (!fragment && gone > work.skin[m]))
       out = work.blocks_due = true;
+    out = out || gone > work.skin[m];
   }
   if (any_left_skin(work))
     out = work.pairs_due = true;
-  return find_leavers(model, work) || out;
-}
-
-// Finds the contacts of pairs of single tetrahedra. Their order follows from the model alone.
-void compute_tets(const Model& model, const State& state, ContactWork& work, int threads) {
-  if (!work.tet_pairs)
-    return;
-  TetPairs& pairs = *work.tet_pairs;
-  const auto count = static_cast<std::int64_t>(pairs.count());
-  pairs.found.resize(static_cast<std::size_t>((count + tet_pairs_per_chunk - 1) / tet_pairs_per_chunk));
-  for_chunks(static_cast<std::int64_t>(pairs.found.size()), threads, [&](std::int64_t chunk) {
-    ContactChunk& out = pairs.found[chunk];
-    out.contacts.clear();
-    out.forces.clear();
-    out.sums = {};
-    Evaluation evaluation(model, state, work, Contact::spring, out);
-    const std::int64_t end = std::min(count, (chunk + 1) * tet_pairs_per_chunk);
-    for (std::int64_t first = chunk * tet_pairs_per_chunk; first < end; first += contact_rows_per_chunk)
-      for (std::uint64_t bits = pairs.awake[first / contact_rows_per_chunk]; bits != 0; bits &= bits - 1) {
-        const auto p = static_cast<std::size_t>(first + __builtin_ctzll(bits));
-        fall_asleep(work, pairs, p, evaluation.tets(pairs.a[p], pairs.b[p]));
-      }
-  });
-  order_found(model.surface.triangles.size(), pairs);
+  return out;
 }
 
 // Marks the edges that have a contact before the step.
@@ -85,10 +64,11 @@ void mark_touched_edges(const std::vector<Contact>& contacts, ContactWork& work)
       if (work.edges[e].id() == id)
         work.edge_touched[e] = work.mover_edges_touched[work.movers.of_triangle[id / 3]] = 1;
   };
-  for (auto c = contacts.rbegin(); c != contacts.rend() && c->kind == Contact::edge; ++c) {
-    mark(static_cast<int>(c->source));
-    mark(c->target);
-  }
+  for (const Contact& c : contacts)
+    if (c.kind == Contact::edge) {
+      mark(static_cast<int>(c.source));
+      mark(c.target);
+    }
 }
 
 } // namespace
@@ -109,6 +89,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
       return sums; // something is not a number: the stage's watch will say where
     read_nodes_of_rows(model, own);
   }
+  find_tet_pairs(model, state, own, fragments_due);
   keep_own_contacts(model, state, own);
   own.any_depth_begins = !known;
   own.any_depth_of_broken = anew;
@@ -134,8 +115,6 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     find_block_motions(model, state, own, threads);
   }
   find_awake(model, state, own);
-  find_tets_awake(model, state, own, threads);
-  compute_tets(model, state, own, threads);
   FoundContacts found(model, state, own);
   for (std::int64_t first = 0; first < n_chunks; first += chunks_at_a_time * threads) {
     const std::int64_t count = std::min(n_chunks - first, chunks_at_a_time * threads);
@@ -168,6 +147,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
     for (std::int64_t i = 0; i < count; ++i)
       found.add(own.chunks[i], first + i < n_springs ? Contact::spring : Contact::edge);
   }
+  found.add(press_tets(model, state, own, threads));
   sums = found.end();
   own.due = false;
   own.step = 0;

@@ -2,7 +2,6 @@
 
 #include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
-#include "libcdem/contact/narrow_phase/tets_awake.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
@@ -35,6 +34,18 @@ void add_depths(const ContactSums& more, ContactSums& sums) {
         std::tuple(more.deepest, more.deepest_source, more.deepest_target);
 }
 
+// One at a corner of the tetrahedron; of its block, where it has none.
+int triangle_beside(const Model& model, int tet) {
+  const ContactSurface& s = model.surface;
+  const geom::Tet& nodes = model.tets[tet];
+  const int block = model.tet_block[tet];
+  for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
+    if (std::find_first_of(s.triangles[t].nodes.begin(), s.triangles[t].nodes.end(), nodes.begin(),
+                           nodes.end()) != s.triangles[t].nodes.end())
+      return t;
+  return s.block_begin[block];
+}
+
 bool stands_before(const Contact& a, const Contact& b) {
   return key(a) < key(b);
 }
@@ -60,34 +71,44 @@ FoundContacts::FoundContacts(const Model& model, State& state, ContactWork& work
       sums.each([](ExactSum& sum) { sum.clear(); });
       sums.touches = false;
     }
-  if (work.tet_pairs)
-    for (const ContactChunk& chunk : work.tet_pairs->found)
-      add_depths(chunk.sums, sums_);
   work.now.clear();
   work.now.reserve(state.contacts.size() + state.contacts.size() / 8 + 64);
 }
 
 void FoundContacts::add(const ContactChunk& found, Contact::Kind kind) {
   add_depths(found.sums, sums_);
-  if (kind == Contact::edge)
-    add_of_tets_before(nullptr);
-  for (std::size_t i = 0; i < found.contacts.size(); ++i) {
-    if (kind == Contact::spring)
-      add_of_tets_before(&found.contacts[i]);
+  for (std::size_t i = 0; i < found.contacts.size(); ++i)
     add(found.contacts[i], found.forces[i], kind);
+}
+
+void FoundContacts::add(std::vector<TetChunk> found) {
+  tets_ = std::move(found);
+  const bool counts = !work_.shared || work_.shared->part().rank == 0; // else another rank does
+  for (const TetChunk& chunk : tets_) {
+    sums_.depth = std::max(sums_.depth, chunk.depth);
+    sums_.depth_over_height = std::max(sums_.depth_over_height, chunk.depth_over_height);
+    if (const double part = chunk.depth_over_height / depth_ratio; part > 1 && part > sums_.deepest) {
+      sums_.deepest = part;
+      sums_.deepest_source = triangle_beside(model_, chunk.deepest[0]);
+      sums_.deepest_target = triangle_beside(model_, chunk.deepest[1]);
+    }
+    if (!counts)
+      continue;
+    for (const double lost : chunk.friction)
+      friction_.add(lost);
+    for (const double lost : chunk.damping)
+      damping_.add(lost);
+    sums_.contacts += static_cast<std::int64_t>(chunk.forces.size());
   }
 }
 
-void FoundContacts::add_of_tets_before(const Contact* next) {
-  if (!work_.tet_pairs)
-    return;
-  const TetPairs& pairs = *work_.tet_pairs;
-  for (; next_of_tets_ < pairs.ordered.size(); ++next_of_tets_) {
-    const PlaceOfFound& at = pairs.ordered[next_of_tets_];
-    const ContactChunk& chunk = pairs.found[at.chunk];
-    if (next && !(order_of(chunk.contacts[at.number]) < order_of(*next)))
-      return;
-    add(chunk.contacts[at.number], chunk.forces[at.number], Contact::spring);
+// After all others, as they stand in State.
+void FoundContacts::add_tets() {
+  for (const TetChunk& chunk : tets_) {
+    work_.now.insert(work_.now.end(), chunk.contacts.begin(), chunk.contacts.end());
+    for (const TetPairForce& force : chunk.forces)
+      for (int k = 0; k < 8; ++k)
+        add_at_node(force.node[k], force.block, force.force[k], force.stiffness[k]);
   }
 }
 
@@ -106,19 +127,23 @@ void FoundContacts::add(const Contact& contact, const ContactForce& force, Conta
   told_[kind].push_back(force);
 }
 
+void FoundContacts::add_at_node(int node, int block, const geom::Vec3& force, double stiffness) {
+  Node& sum = work_.force[node];
+  sum.x += force.x();
+  sum.y += force.y();
+  sum.z += force.z();
+  if (work_.stiffness[node] == 0 && stiffness != 0)
+    work_.touched.push_back({node, block});
+  work_.stiffness[node] += 2 * stiffness; // the weights of both sides sum to 2
+}
+
 void FoundContacts::add_at_nodes(const ContactForce& f) {
   const auto add = [&](int node, int block, const geom::Vec3& force, double stiffness) {
-    Node& sum = work_.force[node];
-    sum.x += force.x();
-    sum.y += force.y();
-    sum.z += force.z();
-    if (work_.stiffness[node] == 0 && stiffness != 0)
-      work_.touched.push_back({node, block});
-    work_.stiffness[node] += 2 * stiffness; // the weights of both sides sum to 2
+    add_at_node(node, block, force, stiffness);
   };
   const ContactArms& arms = f.arms;
   if (model_.blocks[f.source_block].rigid < 0)
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 4; ++i)
       if (arms.on_source[i] != 0)
         add(arms.source[i], f.source_block, arms.on_source[i] * (f.normal + f.shear),
             arms.on_source[i] * f.stiffness);
@@ -142,7 +167,7 @@ void FoundContacts::add_on_rigid(const ContactForce& f) {
   if (const int rigid = model_.blocks[f.source_block].rigid; rigid >= 0) {
     geom::Vec3 at = geom::Vec3::Zero();
     double frequency2 = 0;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 4; ++i)
       if (arms.on_source[i] != 0) {
         const geom::Vec3 here = arm(arms.source[i], rigid);
         at += arms.on_source[i] * here;
@@ -177,7 +202,8 @@ void FoundContacts::add_losses() {
   for (const Contact& c : state_.contacts) {
     while (next != work_.now.end() && key(*next) < key(c))
       ++next;
-    if ((next == work_.now.end() || key(*next) != key(c)) && keeps(model_, work_, c))
+    if (c.kind != Contact::tets && (next == work_.now.end() || key(*next) != key(c)) &&
+        keeps(model_, work_, c))
       friction_.add(
           end_loss(c, law_of(model_, c), work_.step * velocity_past(state_, arms_of(model_, state_, c))));
   }
@@ -267,10 +293,10 @@ void FoundContacts::set_values() {
 }
 
 ContactSums FoundContacts::end() {
-  add_of_tets_before(nullptr);
   add_losses();
   if (work_.shared)
     exchange();
+  add_tets();
   set_values();
   assert(std::is_sorted(work_.now.begin(), work_.now.end(), stands_before));
   if (work_.now.capacity() > 2 * work_.now.size() + 64)

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/narrow_phase/press_tets.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -14,20 +15,22 @@ class FoundContacts {
 public:
   FoundContacts(const Model&, State&, ContactWork&);
 
-  // Found by this rank: first all springs, then edges, in the order of their rows. Those of pairs of single tetrahedra
-  // are known, and are added between them by the same order.
+  // Found by this rank: first all springs, then edges, in the order of their rows, then pairs of tetrahedra.
   void add(const ContactChunk&, Contact::Kind);
+  // Found by all ranks alike.
+  void add(std::vector<TetChunk>);
 
   // Tells the other ranks, and puts the contacts into State.
   ContactSums end();
 
 private:
   void add(const Contact&, const ContactForce&, Contact::Kind);
-  void add_of_tets_before(const Contact* next); // null: all
   void add_at_nodes(const ContactForce&);
+  void add_at_node(int node, int block, const geom::Vec3& force, double stiffness);
   void add_on_rigid(const ContactForce&);
   RigidSums& touched(int rigid);
   void add_losses();
+  void add_tets();
   void exchange();
   void set_values();
 
@@ -35,8 +38,8 @@ private:
   State& state_;
   ContactWork& work_;
   ContactSums sums_;
-  ExactSum friction_, damping_;  // J
-  std::size_t next_of_tets_ = 0; // into TetPairs::ordered
+  ExactSum friction_, damping_; // J
+  std::vector<TetChunk> tets_;
   std::array<std::vector<ContactForce>, 2>
       told_; // to all ranks: of what deforms, per kind, in the order of rows
 };

@@ -140,6 +140,8 @@ void StateShares::gather(State& state) const {
 }
 
 bool StateShares::is_told(const Contact& c) const {
+  if (c.kind == Contact::tets)
+    return false;
   const auto [source, target] = triangles_of(c);
   return is_rigid_[source] && is_rigid_[target];
 }

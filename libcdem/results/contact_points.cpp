@@ -13,7 +13,7 @@ std::vector<ContactPoint> contact_points(const Model& model, const State& state)
       continue;
     const ContactArms arms = arms_of(model, state, contact);
     ContactPoint point;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 4; ++i)
       if (arms.on_source[i] != 0)
         point.place += arms.on_source[i] * place_of(model, state, arms.source[i]);
     point.normal = (law_of(model, contact).kn * depth + contact.damping) * contact.normal;

@@ -63,11 +63,15 @@ public:
 
   void contacts() const {
     for (const Contact& contact : state_.contacts) {
-      const auto [from, to] = triangles_of(contact);
-      for (const int triangle : {from, to}) {
-        const ContactTriangle& t = model_.surface.triangles[triangle];
-        const Vec3 place = centre(t.nodes);
-        if (model_.blocks[t.block].body == front_.body && inside(place))
+      if (!(contact.effective_penetration() > 0))
+        continue;
+      const ContactArms arms = arms_of(model_, state_, contact);
+      Vec3 place = Vec3::Zero(); // m, undeformed
+      for (int i = 0; i < 4; ++i)
+        place += arms.on_source[i] * model_.node_position[arms.source[i]];
+      const auto [from, to] = blocks_of(model_, contact);
+      for (const int block : {from, to}) {
+        if (model_.blocks[block].body == front_.body && inside(place))
           refuse("a contact acts at " + text(place) + ", in the domain",
                  "the crack must be open and free; take a smaller outer radius");
       }

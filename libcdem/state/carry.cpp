@@ -197,6 +197,7 @@ private:
       t.handed_over[lane] = f.handed_over[old_lane];
       t.stage[lane] = f.stage[old_lane];
       t.preloaded[lane] = f.preloaded[old_lane];
+      t.let_go[lane] = f.let_go[old_lane];
       t.told[lane] = f.told[old_lane];
     }
   }
@@ -214,18 +215,47 @@ private:
     }
   }
 
+  void carry_contact_of_tets(Contact c, const std::vector<int>& new_tet) {
+    int a = static_cast<int>(c.source), b = c.target;
+    if (!new_tet.empty()) {
+      a = new_tet[a];
+      b = new_tet[b];
+    }
+    if (a < 0 || b < 0)
+      return;
+    if (a > b) { // the lower one is the source
+      std::swap(a, b);
+      c.normal = -c.normal;
+      c.shear = -c.shear;
+    }
+    c.source = static_cast<std::uint32_t>(a) & 0x3fffffffu;
+    c.target = c.fragment = b;
+    to_.contacts.push_back(c);
+  }
+
   void carry_contacts() {
     if (!map_.new_triangle || from_.contacts.empty())
       return;
     const std::vector<int> pieces = map_.fragments_of_nodes(now_, to_);
+    std::vector<int> new_tet; // by the old number; none: all stay
+    if (map_.tet) {
+      new_tet.assign(old_.tets.size(), -1);
+      for (std::size_t t = 0; t < map_.tet->size(); ++t)
+        if ((*map_.tet)[t] >= 0)
+          new_tet[(*map_.tet)[t]] = static_cast<int>(t);
+    }
     const auto now = [&](int triangle) { return (*map_.new_triangle)[triangle]; };
     for (Contact c : from_.contacts) {
+      if (c.kind == Contact::tets) {
+        carry_contact_of_tets(c, new_tet);
+        continue;
+      }
       const bool edge = c.kind == Contact::edge;
       const auto [old_source, old_target] = triangles_of(c);
       const int source = now(old_source), target = now(old_target);
       if (source < 0 || target < 0 || (edge && (now(c.beside) < 0 || now(c.fragment) < 0)))
         continue;
-      c.source = static_cast<std::uint32_t>(3 * source + static_cast<int>(c.source) % 3) & 0x7fffffffu;
+      c.source = static_cast<std::uint32_t>(3 * source + static_cast<int>(c.source) % 3) & 0x3fffffffu;
       c.target = edge ? 3 * target + c.target % 3 : target;
       if (edge)
         c.beside = now(c.beside);

@@ -12,36 +12,38 @@
 namespace cdem {
 
 struct Contact {
-  enum Kind : std::uint32_t { spring, edge };
-  std::uint32_t kind : 1;
-  std::uint32_t source : 31; // 3 triangle + corner; of an edge where it starts on the first of its triangles
+  enum Kind : std::uint32_t { spring, edge, tets };
+  std::uint32_t kind : 2;
+  // 3 triangle + corner; of an edge where it starts on the first of its triangles; of a pair of tetrahedra the first of them.
+  std::uint32_t source : 30;
   // For a spring: the target's block, or its fragment once the block has broken; one contact for each. For an edge: its
-  // own second triangle.
+  // own second triangle. For tetrahedra: the target.
   std::int32_t fragment = 0;
-  std::int32_t target = 0;                // triangle; of an edge as source
+  std::int32_t target = 0;                // triangle; of an edge as source; tetrahedron
   std::int32_t beside = 0;                // of an edge the second triangle of the target
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target
   geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
-  // m, depth at which it carries nothing: it was found that deep; below 0 where it has taken over the force of a face.
+  // m, depth at which it carries nothing: it was found that deep.
   double reference_penetration = 0;
   double depth = 0;     // m, below the target's surface
   double damping = 0;   // N, what restitution adds to the spring's normal force
   double stiffness = 0; // N/m, of its normal spring (as_stiff_as); 0: that of its law
 
   explicit Contact(Kind of = spring, int from = 0)
-      : kind(of & 1u), source(static_cast<std::uint32_t>(from) & 0x7fffffffu) {}
+      : kind(of & 3u), source(static_cast<std::uint32_t>(from) & 0x3fffffffu) {}
 
   double effective_penetration() const { return std::max(0.0, depth - reference_penetration); } // m
 };
 
-// The two triangles of a contact, its source's first; of edges the first of each.
+// The two triangles of a contact of springs or edges, its source's first; of edges the first of each.
 inline std::pair<int, int> triangles_of(const Contact& c) {
   return {static_cast<int>(c.source) / 3, c.kind == Contact::spring ? c.target : c.target / 3};
 }
 
-// Contacts are sorted by it: of a spring one for each fragment, of an edge one for each other edge.
+// Contacts are sorted by it: of a spring one for each fragment, of an edge one for each other edge, of a tetrahedron one for
+// each other.
 inline auto key(const Contact& c) {
-  return std::tuple(c.kind == Contact::edge, static_cast<int>(c.source), c.fragment,
+  return std::tuple(static_cast<int>(c.kind), static_cast<int>(c.source), c.fragment,
                     c.kind == Contact::edge ? c.target : 0);
 }
 

@@ -25,12 +25,12 @@ inline bool holds(FaceStage stage) {
   return stage <= FaceStage::resumed;
 }
 
-// A broken face goes over to contact in two steps: in the first the contacts of its two triangles begin, without force,
-// beside its springs; in the next one they take over the force of the springs (contact/response/taken_over.hpp).
+// A broken face goes over to contact little by little: once its sides have parted or slid away, contacts between them and all
+// others around may begin, and the further it has slid, the less of its springs acts, as less of its sides lies on each other.
 enum class HandOver : std::uint8_t {
   held,   // its springs act
   done,   // they carry nothing any more
-  leaving // they act, and contacts may begin
+  leaving // what has not let go acts, and contacts may begin
 };
 
 // What contact has been told of a face, as a sum. It goes by that until it is told again of the faces of the block: when one
@@ -53,6 +53,7 @@ struct FaceStateBatch {
   FaceStage stage[lanes];          // of cohesive bodies; holding in others
   std::uint8_t preloaded[lanes];   // 1: CohesiveFace::preload has not died away
   std::uint8_t told[lanes];        // ToldOfFace
+  double let_go[lanes];            // part of its springs that act no more, of a face that leaves
   std::int32_t slip = -1;          // place in State::face_slip; -1: no spring of the batch is broken
 };
 

@@ -185,7 +185,6 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
   sums.broken.clear();
   sums.astray = -1;
   sums.hands_over = false;
-  sums.left.clear();
   if (chunk.faces > 0) {
     const FaceMotion motion{at.position, at.displacement, at.velocity, work.strain_step};
     const int number = model.blocks[chunk.block].body;

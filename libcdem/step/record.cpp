@@ -5,7 +5,6 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
-#include "libcdem/contact/response/taken_over.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libcdem/results/cracks.hpp"
 #include "libcdem/results/fields.hpp"
@@ -109,9 +108,6 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
       work.contact.fragments_due = true;
       work.contact.told_due[chunk.block] = 1;
     }
-    for (const FaceLeft& left : sums.left)
-      state.spent.breaking += take_over(model, state, work.contact,
-                                        {left.face + chunk.face_batches.begin * lanes, chunk.block, left});
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),

@@ -10,7 +10,7 @@ namespace {
 bool is_zero(const FaceSums& sums) {
   return sums.friction == 0 && sums.breaking == 0 && sums.damping == 0 && sums.plastic == 0 &&
          sums.external == 0 && sums.crack.tension == 0 && sums.crack.shear == 0 && sums.broken.empty() &&
-         sums.astray < 0 && !sums.hands_over && sums.left.empty();
+         sums.astray < 0 && !sums.hands_over;
 }
 
 bool is_zero(const SpringSums& sums) {
@@ -31,7 +31,6 @@ void each_member(Sums& sums, Act& act) {
     act(sums.external);
     act(sums.astray);
     act(sums.hands_over);
-    act(sums.left);
   } else {
     act(sums.losses);
   }

@@ -215,8 +215,7 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
     broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1) +
              record_begun_cracks(context_.model, context_.state, begun, log, context_.number, step - 1);
     for (const FaceSums& sums : work.face_sums)
-      if (sums.hands_over ||
-          !sums.left.empty()) // what is handed over now is looked for where things stand now
+      if (sums.hands_over) // what is handed over now is looked for where things stand now
         work.contact.due = true;
   }
   work.near.forget();

@@ -1,6 +1,6 @@
 #include "libcdem/step/synchronised_view.hpp"
 
-#include "libcdem/contact/data/tet_pairs.hpp"
+#include "libcdem/contact/data/tet_contacts.hpp"
 #include "libcdem/ranks/looks.hpp"
 
 namespace cdem {
@@ -33,8 +33,8 @@ SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
   if (work.contact.due || work.strain_step > 0) {
     kept_ = std::make_unique<Kept>(Kept{
         {}, work.contact, stage.contacts_, work.face_sums, work.near, work.strain_step, work.hand_over_due});
-    if (work.contact.tet_pairs)
-      kept_->contact.tet_pairs = std::make_shared<TetPairs>(*work.contact.tet_pairs);
+    if (work.contact.tet_contacts)
+      kept_->contact.tet_contacts = std::make_shared<TetContacts>(*work.contact.tet_contacts);
     copy_advancing_fields(state, kept_->state);
   }
   RunLog of_view;

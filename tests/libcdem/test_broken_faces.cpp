@@ -1,6 +1,7 @@
 // Broken faces of a mesh: how they turn, slide, take energy, and when they are let go.
 #include "tests/libcdem/two_halves.hpp"
 
+#include "libcdem/bond/face_frame.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
 
@@ -55,7 +56,8 @@ TEST_CASE("broken faces: what friction holds turns with the face, about its norm
 TEST_CASE("broken faces: parted or slid away they are handed over to the contact of the surface",
           "[bonds][mesh]") {
   const bool covered = GENERATE(true, false);
-  const double limit = 0.2 * size_of_face, open = 1e-3 * size_of_face;
+  const double limit = cdem::slid_from * size_of_face, open = cdem::parted_from * size_of_face,
+               off = cdem::slid_off_from * size_of_face;
   Halves halves(halves_joint());
   if (covered)
     cover(halves.system);
@@ -70,9 +72,12 @@ TEST_CASE("broken faces: parted or slid away they are handed over to the contact
   SECTION("slid away") {
     CHECK(halves.lead(press + Vec3(0.99 * limit, 0, 0)).norm() > 0);
     CHECK(halves.handed_over() == 0);
-    // Its springs act once more, while contacts begin, which then take over.
+    // Contacts may begin, and its springs let go of it little by little.
     CHECK(halves.lead(press + Vec3(1.01 * limit, 0, 0)).norm() > 0);
-    halves.lead(press + Vec3(1.01 * limit, 0, 0));
+    const double slides = halves.lead(press + Vec3(0.3 * off + 0.7 * limit, 0, 0)).norm();
+    halves.lead(press + Vec3(0.3 * off + 0.7 * limit, 0, 0));
+    CHECK(halves.lead(press + Vec3(0.7 * off + 0.3 * limit, 0, 0)).norm() <= slides);
+    halves.lead(press + Vec3(1.01 * off, 0, 0));
   }
   CHECK(halves.handed_over() == (covered ? 2 : 0));
   CHECK((halves.lead(press).norm() > 0) == !covered);

@@ -139,11 +139,12 @@ TEST_CASE("cohesive loading: a bar torn in two carries pressure again when it is
   const Machine::Sample last = pressed.back(), &middle = pressed[pressed.size() / 2];
   const double stiffness = (last.traction - middle.traction) / (last.apart - middle.apart) * height / E;
   INFO("ragged " << ragged << ", stiffness over E A / L " << stiffness);
+  // Faces that opened by less than a tenth of their size know where their sides met.
   if (ragged) { // the sides have slipped: few places meet first
-    CHECK(stiffness > 0.5);
-    CHECK(stiffness < 0.8);
-  } else { // as if the tets on both sides of the contact were there twice: a sixth of the height each
-    CHECK(stiffness == Approx(1 / (1 + 2 / 6.0)).epsilon(0.02));
+    CHECK(stiffness > 0.8);
+    CHECK(stiffness < 1.02);
+  } else {
+    CHECK(stiffness == Approx(1).epsilon(0.03));
   }
   CHECK(machine.s->energy().balance_error() < 1e-3);
 }

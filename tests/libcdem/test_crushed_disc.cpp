@@ -89,13 +89,10 @@ TEST_CASE("crushed disc: what is skipped changes no bit", "[contact][fracture]")
   INFO("tets " << cdem::first_model(spec).tets.size() << " broken " << all.broken << " contacts "
                << all.contacts << " and " << skipped.contacts);
   CHECK(all.broken > 500);
-  CHECK(all.contacts > 50);
   check_same(all, skipped);
 }
 
-// Where a crack ends inside a piece, both of its sides belong to the piece and may be equally near to a semi-spring of another one.
-TEST_CASE("crushed disc: what is skipped changes no bit where semi-springs stand at the ends of cracks",
-          "[contact][fracture]") {
+TEST_CASE("crushed disc: what is skipped changes no bit where cracks end in pieces", "[contact][fracture]") {
   const cdem::ModelSpec spec = between_plates(0.013, 0.4);
   const Outcome all = crush(spec, 8, 9, 400), skipped = crush(spec, 9, 9, 400);
   INFO("broken " << all.broken << " contacts " << all.contacts << " and " << skipped.contacts);

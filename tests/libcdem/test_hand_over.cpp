@@ -2,7 +2,9 @@
 #include "tests/libcdem/boxes.hpp"
 #include "tests/libcdem/two_halves.hpp"
 
+#include "libcdem/bond/face_frame.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libcdem/state/places.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -81,66 +83,7 @@ void let_faces_leave(System& s) {
   });
 }
 
-// Forces of all contacts on the upper part, against the slope and along it, N.
-std::array<double, 2> carried(const System& s, const Mat3& turn) {
-  Vec3 sum = Vec3::Zero();
-  for (const cdem::Contact& c : s.state.contacts) {
-    const Vec3 force = normal_force(s, c) * c.normal + c.shear;
-    sum += c.normal.dot(turn.col(2)) > 0 ? force : Vec3(-force);
-  }
-  return {sum.dot(turn.col(2)), -sum.dot(turn.col(0))};
-}
-
-} // namespace
-
-TEST_CASE("hand-over: contacts take over the force of a pressed, sheared joint, and nothing moves",
-          "[contact][hand_over][energy]") {
-  const auto [turn, jitter] = GENERATE(std::pair(straight, 0.0), std::pair(odd, 0.15));
-  System s = leaning(turn, jitter, 1);
-  const double weight = rock().density * upper.prod() * gravity_on_slope.norm();
-  const double pressed = weight * std::cos(steep), sheared = weight * std::sin(steep);
-  const double stored = cdem::energy(s.model, s.state).springs;
-  let_faces_leave(s);
-  cdem::RunOptions options;
-  options.duration = 1e-3; // of a fall from 0.5 mm
-  options.callback_every = 1;
-  int looks = 0;
-  options.callback = [&] {
-    if (++looks < 3)
-      return;
-    const auto [normal, shear] = carried(s, turn);
-    if (std::abs(normal / pressed - 1) > 0.03 || std::abs(shear / sheared - 1) > 0.03)
-      FAIL("look " << looks << ": normal " << normal / pressed << ", shear " << shear / sheared);
-  };
-  s.run(options);
-  const cdem::EnergyLedger e = cdem::energy(s.model, s.state);
-  const auto [normal, shear] = carried(s, turn);
-  INFO("stored " << stored << " J, breaking " << e.breaking << ", kinetic " << e.kinetic << ", carried "
-                 << normal / pressed << " and " << shear / sheared << ", balance " << e.balance_error());
-  CHECK(looks > 20);
-  for (const cdem::FaceStateBatch& faces : s.state.faces)
-    CHECK(std::count(std::begin(faces.handed_over), std::end(faces.handed_over), 2) == 0);
-  CHECK(normal == Approx(pressed).epsilon(0.03));
-  CHECK(shear == Approx(sheared).epsilon(0.03));
-  CHECK(e.kinetic < 1e-3 * stored);
-  CHECK(e.balance_error() < 1e-3);
-}
-
-TEST_CASE("hand-over: the same bits for every number of threads", "[contact][hand_over][threads]") {
-  const auto hash_with = [](int threads) {
-    System s = leaning(odd, 0.15, threads);
-    let_faces_leave(s);
-    cdem::RunOptions options;
-    options.steps = 300;
-    s.run(options);
-    return cdem::hash(s.state);
-  };
-  CHECK(hash_with(1) == hash_with(2));
-}
-
-namespace {
-
-constexpr double slope = 25 * degree, pull = 100; // m/s2
+constexpr double steeper = 25 * degree, pull = 100; // m/s2
 constexpr double way = 0.24; // m, that the upper part slides: its rear edge passes two rows of nodes
 
 Vec3 pull_at(double angle) {
@@ -149,7 +92,38 @@ Vec3 pull_at(double angle) {
 
 // m/s2, of a block on the slope.
 double slides_at() {
-  return pull * (std::sin(slope) - std::tan(friction_angle) * std::cos(slope));
+  return pull * (std::sin(steeper) - std::tan(friction_angle) * std::cos(steeper));
+}
+
+// m, how far the lower side of the upper part has come below the upper side of the lower part, at most.
+double sunk(const System& s, const Mat3& turn) {
+  double deepest = 0;
+  for (std::size_t t = 0; t < s.model.tets.size(); ++t) {
+    double above = 0;
+    for (const int n : s.model.tets[t])
+      above += s.model.node_position[n].dot(turn.col(2)) / 4;
+    for (const int n : s.model.tets[t])
+      if (above > lower.z())
+        deepest = std::max(deepest, lower.z() - cdem::place_of(s.model, s.state, n).dot(turn.col(2)));
+  }
+  return deepest;
+}
+
+// m, how far the middle of the upper part has moved in a direction since the model was built.
+double moved(const System& s, const Mat3& turn, const Vec3& to) {
+  double sum = 0, mass = 0;
+  for (const geom::Tet& tet : s.model.tets) {
+    double above = 0, gone = 0;
+    for (const int n : tet) {
+      above += s.model.node_position[n].dot(turn.col(2)) / 4;
+      gone += vec(s.state.displacement[n]).dot(to) / 4;
+    }
+    if (above < lower.z())
+      continue;
+    sum += gone;
+    mass += 1;
+  }
+  return sum / mass;
 }
 
 // m/s, of the upper part down the slope.
@@ -169,26 +143,75 @@ double speed_of_upper(const System& s, const Mat3& turn) {
   return sum / mass;
 }
 
+} // namespace
+
+TEST_CASE("hand-over: faces that slide let go of their springs little by little, and nothing jumps",
+          "[contact][hand_over][energy]") {
+  const auto [turn, jitter] = GENERATE(std::pair(straight, 0.0), std::pair(odd, 0.15));
+  System s = leaning(turn, jitter, 1, pull_at(steep));
+  s.conditions.gravity = gravity(turn * pull_at(steeper));
+  const double size = edge / std::sqrt(2.0), far = cdem::slid_off_from * size; // m
+  cdem::RunOptions options;
+  options.duration = std::sqrt(2 * far / slides_at());
+  double height = 0; // m, that the upper part moves up or down, at most
+  options.callback_every = 20;
+  options.callback = [&] { height = std::max(height, std::abs(moved(s, turn, turn.col(2)))); };
+  s.run(options);
+  std::int64_t leaving = 0;
+  for (const cdem::FaceStateBatch& faces : s.state.faces)
+    leaving += cdem::lanes - std::count(std::begin(faces.handed_over), std::end(faces.handed_over), 0);
+  const cdem::EnergyLedger e = cdem::energy(s.model, s.state);
+  const double mass = rock().density * upper.prod(), speed = speed_of_upper(s, turn);
+  const double rubs =
+      std::tan(friction_angle) * mass * pull * std::cos(steeper) * moved(s, turn, turn.col(0));
+  // Rough as the tetrahedra lie on each other, they set the parts trembling, and nothing damps that.
+  const double trembling = e.external - 0.5 * mass * speed * speed - e.friction;
+  INFO("leaving " << leaving << ", height " << height << " m, friction " << e.friction / rubs
+                  << ", trembling " << trembling / rubs << ", balance " << e.balance_error());
+  CHECK(leaving > 40);
+  CHECK(height < 2e-3 * edge);
+  CHECK(e.friction == Approx(rubs).epsilon(0.03));
+  CHECK(trembling < 0.08 * rubs);
+  CHECK(e.balance_error() < 1.5e-3); // 4e-3 of less energy where the first of them leaves
+}
+
+TEST_CASE("hand-over: the same bits for every number of threads", "[contact][hand_over][threads]") {
+  const auto hash_with = [](int threads) {
+    System s = leaning(odd, 0.15, threads);
+    let_faces_leave(s);
+    cdem::RunOptions options;
+    options.steps = 300;
+    s.run(options);
+    return cdem::hash(s.state);
+  };
+  CHECK(hash_with(1) == hash_with(2));
+}
+
+namespace {
+
 struct Slide {
   double acceleration = 0; // m/s2, mean
-  double deepest = 0;      // m, of all contacts
-  double across = 0;       // N, of all contacts the largest normal force along the slope
+  double deepest = 0;      // m, of the upper part's nodes, below the upper side of the lower part
+  double across = 0;       // N, normal forces of all contacts, along the slope, mean
 };
 
 Slide slide(System& s, const Mat3& turn) {
-  let_faces_leave(s);
-  s.conditions.gravity = gravity(turn * pull_at(slope));
+  s.conditions.gravity = gravity(turn * pull_at(steeper));
   Slide found;
+  std::int64_t looks = 0;
   cdem::RunOptions options;
   options.duration = std::sqrt(2 * way / slides_at());
   options.callback_every = 1;
   options.callback = [&] {
-    for (const cdem::Contact& c : s.state.contacts) {
-      found.deepest = std::max(found.deepest, c.depth);
-      found.across = std::max(found.across, normal_force(s, c) * std::abs(c.normal.dot(turn.col(0))));
-    }
+    Vec3 sum = Vec3::Zero();
+    for (const cdem::Contact& c : s.state.contacts)
+      sum += normal_force(s, c) * (c.normal.dot(turn.col(2)) > 0 ? c.normal : Vec3(-c.normal));
+    found.across += sum.dot(turn.col(0));
+    ++looks;
+    found.deepest = std::max(found.deepest, sunk(s, turn));
   };
   s.run(options);
+  found.across = std::abs(found.across) / static_cast<double>(looks);
   found.acceleration = speed_of_upper(s, turn) / options.duration;
   return found;
 }
@@ -203,8 +226,8 @@ TEST_CASE("hand-over: a part that slides off a broken joint meets nothing behind
   System s = leaning(turn, jitter, 1, pull_at(steep));
   const Slide found = slide(s, turn);
   INFO("deepest " << found.deepest << " m, across " << found.across << " N");
-  CHECK(found.acceleration == Approx(slides_at()).epsilon(0.03));
-  CHECK(found.deepest < 1e-3 * edge);
+  CHECK(found.acceleration == Approx(slides_at()).epsilon(0.09)); // friction within 2.5 %
+  CHECK(found.deepest < 5e-3 * edge);
   CHECK(found.across < 0.02 * rock().density * upper.prod() * pull);
 }
 

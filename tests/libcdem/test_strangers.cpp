@@ -206,8 +206,6 @@ TEST_CASE("strangers: bodies that break side by side do so as each alone", "[con
 // Strangers change when is searched. So a search must not decide which contacts there are.
 TEST_CASE("strangers: what contact skips changes no bit where parts of one fragment overlap",
           "[contact][cohesive][breaking]") {
-  // Springs: a semi-spring over the nearest triangle of a fragment comes into a tetrahedron of it from the side. Cohesive: one
-  // comes out of a tetrahedron and is in another one, deeper than any contact of its row was.
   const auto kind = GENERATE(cdem::BondKind::cohesive, cdem::BondKind::springs);
   System skipped = both_fall(kind, Stranger::none), all = both_fall(kind, Stranger::none);
   const double step = kind == cdem::BondKind::springs ? 0.3 * time_step : time_step;

@@ -16,16 +16,13 @@ constexpr double thinnest_skin = 0.001, thickest_skin = 0.1;
 // Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
 // are trusted to get to.
 constexpr double skin_steps = 250, pace_of_others = 0.25;
-// The same of fragments, by themselves and relative to those around them, with which they mostly move.
-constexpr double steps_of_fragments = 150, steps_relative = 16;
+// The same of fragments.
+constexpr double steps_of_fragments = 150;
 // Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
 constexpr std::int64_t early = 50, late = 150;
 constexpr int most_widenings = 6;
 // Pairs of boxes that may be compared to find how far off the others are.
 constexpr std::size_t most_boxes_compared = 4000000;
-// Largest depth of a contact, over the height of a tet.
-constexpr double depth_ratio = 0.25;
-
 double gap(const geom::Box& a, const geom::Box& b) {
   return (a.min - b.max).cwiseMax(b.min - a.max).maxCoeff();
 }
@@ -106,14 +103,9 @@ std::vector<double> choose_skins(const Model& model, const State& state, Contact
   for (int m = blocks; m < work.movers.count(); ++m)
     mean += pace[m] / (work.movers.count() - blocks);
   for (int m = blocks; m < work.movers.count(); ++m) {
-    const auto way = [&](double steps) {
-      return std::clamp(steps * std::max(pace[m], mean), thinnest_skin * work.usual_height,
-                        thickest_skin * work.usual_height);
-    };
-    if (renewed.within[m])
-      work.skin[m] = way(steps_of_fragments);
     if (renewed.movers[m])
-      work.inner_skin[m] = way(steps_relative);
+      work.skin[m] = std::clamp(steps_of_fragments * std::max(pace[m], mean),
+                                thinnest_skin * work.usual_height, thickest_skin * work.usual_height);
     double& most = work.skin[work.movers.block[m]];
     most = std::max(most, work.skin[m]);
   }
@@ -134,7 +126,7 @@ SearchMargin::SearchMargin(const Model& model, const State& state, const Contact
       at_least_(model.blocks.size()), allowed_(work.skin) {
   // A fragment stays within its skin around where it was searched, and may go back all the way through that place.
   for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m)
-    if (!renewed.within[m])
+    if (!renewed.movers[m])
       allowed_[m] += gone_at_most(model, work, m);
   for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m) {
     double& most = allowed_[work.movers.block[m]]; // of a block the most of its fragments
@@ -143,6 +135,8 @@ SearchMargin::SearchMargin(const Model& model, const State& state, const Contact
   if (!work.history_complete)
     std::fill(whole_.begin(), whole_.end(), 1);
   for (const Contact& c : state.contacts) {
+    if (c.kind == Contact::tets) // found by lists of their own
+      continue;
     const auto [a, b] = blocks_of(model, c);
     deepest_[a] = std::max(deepest_[a], c.depth);
     deepest_[b] = std::max(deepest_[b], c.depth);
@@ -176,7 +170,7 @@ ActiveSurface active_surface(const Model& model, const State& state, const Conta
   for (const int t : part.triangles) {
     const int mover = work.movers.of_triangle[t];
     part.source_searched.push_back(
-        static_cast<char>(renewed.movers[mover] || work.changed[t] >= Change::joint));
+        static_cast<char>(renewed.movers[mover] || work.changed[t] == Change::surface));
     part.target_searched.push_back(static_cast<char>(renewed.movers[mover] || renewed.surfaced[mover]));
   }
   part.block_boxes.resize(part.block_begin.size() - 1);

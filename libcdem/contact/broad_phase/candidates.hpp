@@ -29,12 +29,6 @@ struct Near {
 // pairs: (source, target), of one or two blocks; they are sorted by source, fragment of the target and target.
 std::vector<Near> near_springs(const Model&, const State&, const ContactWork&, const SearchMargin&,
                                const ActiveSurface&, Pairs& pairs, const Skins&);
-// The same of sorted pairs, each for some of the semi-springs of its source (a bit each; an empty list: all for all).
-// Whether a semi-spring is inside a fragment is told by the nearest triangle of the fragment. So a semi-spring may look at
-// a fragment only if the triangle nearest to it is among the pairs it looks at, however near the others of its source are.
-std::vector<Near> near_springs(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                               const ActiveSurface&, const Pairs& sorted,
-                               const std::vector<std::uint8_t>& of_springs, const Skins&);
 
 // Near edges of two blocks. The edge with the lower number is the source.
 std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const SearchMargin&,
@@ -42,8 +36,5 @@ std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, con
 // Near edges within one block, of triangles that meet; each pair stands once.
 std::vector<Near> near_edges_within(const Model&, const State&, const ContactWork&, const SearchMargin&,
                                     const ActiveSurface&, const Pairs& meeting);
-// Pairs of edges of one broken block, of which one is `searched` (per edge), those of this rank's share.
-std::vector<Near> near_edges_of_fragments(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                                          int block, const std::vector<char>& searched);
 
 } // namespace cdem

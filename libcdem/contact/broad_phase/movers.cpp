@@ -2,12 +2,10 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/broad_phase/renewed.hpp"
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
-#include "libgeom/core/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +18,7 @@ char activity(const State& state, int face) {
   if (face < 0)
     return 1;
   const std::uint8_t told = state.faces[face / lanes].told[face % lanes];
-  if ((told & ToldOfFace::left) != 0)
+  if ((told & ToldOfFace::gone) != 0)
     return 2;
   return static_cast<char>((told & ToldOfFace::broken) != 0);
 }
@@ -34,8 +32,7 @@ void number_movers(const Model& model, ContactWork& work) {
     movers.block[b] = static_cast<int>(b);
   movers.fragment.assign(model.blocks.size(), -1);
   movers.of_triangle.resize(s.triangles.size());
-  std::vector<int>& of_fragment = movers.of_fragment;
-  of_fragment.assign(model.node_position.size(), -1);
+  std::vector<int> of_fragment(model.node_position.size(), -1); // by its smallest node
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
     const int block = s.triangles[t].block;
     int& mover = movers.of_triangle[t];
@@ -105,71 +102,16 @@ void find_single_tets(const Model& model, ContactWork& work) {
       triangles = none;
 }
 
-// Writes ContactWork::joint and fragments_at_joint.
-void find_joints(const Model& model, const State& state, ContactWork& work) {
-  work.joint.clear();
-  work.fragments_at_joint.clear();
-  const auto may_hang = [&](int block) {
-    return work.broken[block] && model.bodies[model.blocks[block].body].bonding.is_cohesive();
-  };
-  bool any = false;
-  for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    any = any || may_hang(static_cast<int>(b));
-  if (!any)
-    return;
-  geom::DisjointSets sets(model.node_position.size());
-  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (!may_hang(chunk.block) || (state.faces[batch].told[lane] & ToldOfFace::separate) != 0)
-      return;
-    const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
-    for (int k = 0; k < 3; ++k)
-      sets.unite(nodes.a[k], nodes.b[k]);
-  });
-  work.joint.resize(model.node_position.size());
-  for (int node = 0; node < static_cast<int>(work.joint.size()); ++node)
-    work.joint[node] = sets.find(node);
-  const ContactSurface& s = model.surface;
-  for (std::size_t t = 0; t < s.triangles.size(); ++t)
-    if (may_hang(s.triangles[t].block) && work.active[t])
-      for (const int node : s.triangles[t].nodes)
-        work.fragments_at_joint.emplace_back(work.joint[node], work.fragment[t]);
-  std::sort(work.fragments_at_joint.begin(), work.fragments_at_joint.end());
-  work.fragments_at_joint.erase(std::unique(work.fragments_at_joint.begin(), work.fragments_at_joint.end()),
-                                work.fragments_at_joint.end());
-}
-
-// Per node: something hung together with it and does so no more.
-std::vector<char> parted_nodes(const ContactWork& before, const ContactWork& work) {
-  if (before.joint.empty() || work.joint.empty())
-    return std::vector<char>(work.fragment_of_node.size(), 0);
-  std::vector<std::pair<int, int>> gone; // (joint, fragment)
-  std::set_difference(before.fragments_at_joint.begin(), before.fragments_at_joint.end(),
-                      work.fragments_at_joint.begin(), work.fragments_at_joint.end(),
-                      std::back_inserter(gone));
-  std::vector<char> of_joint(work.joint.size(), 0), parted(work.joint.size(), 0);
-  for (const auto& [joint, fragment] : gone)
-    of_joint[joint] = 1;
-  for (std::size_t node = 0; node < parted.size(); ++node)
-    parted[node] =
-        static_cast<char>(before.joint[node] != work.joint[node] || of_joint[work.joint[node]] != 0);
-  return parted;
-}
-
 // Writes ContactWork::changed.
 void find_changed(const Model& model, const ContactWork& before, ContactWork& work) {
   work.changed.assign(work.fragment.size(), Change::none);
   if (before.fragment.empty())
     return;
-  const std::vector<char> parted = parted_nodes(before, work);
   for (std::size_t t = 0; t < work.fragment.size(); ++t) {
-    const ContactTriangle& triangle = model.surface.triangles[t];
-    if (!work.broken[triangle.block])
+    if (!work.broken[model.surface.triangles[t].block])
       continue;
     if (before.fragment[t] != work.fragment[t] || before.active[t] != work.active[t])
       work.changed[t] = Change::fragment;
-    if (before.broken[triangle.block] && std::any_of(triangle.nodes.begin(), triangle.nodes.end(),
-                                                     [&](int node) { return parted[node] != 0; }))
-      work.changed[t] = Change::joint;
     if (!before.active[t] && work.active[t])
       work.changed[t] = Change::surface;
   }
@@ -225,21 +167,9 @@ void carry_over(const Model& model, const State& state, ContactWork& before, Con
       if (old[m] >= 0 && old[m] < static_cast<int>(then.size()))
         now[m] = std::move(then[old[m]]);
   };
-  std::vector<int> now_of(before.movers.count(), -1);
-  for (int m = 0; m < work.movers.count(); ++m)
-    if (old[m] >= 0)
-      now_of[old[m]] = m;
-  renumber_tet_pairs(now_of, work);
   carry(&ContactWork::travelled);
   carry(&ContactWork::skin);
-  carry(&ContactWork::inner_skin);
-  carry(&ContactWork::near);
-  carry(&ContactWork::search_of);
-  carry(&ContactWork::look_at);
-  carry(&ContactWork::left);
-  carry(&ContactWork::past_others);
   carry(&ContactWork::swing);
-  carry(&ContactWork::gone_before);
   work.drift.assign(work.movers.count(), geom::Vec3::Zero());
   for (int m = 0; m < work.movers.count(); ++m)
     if (old[m] >= 0 && old[m] < static_cast<int>(before.drift.size()))
@@ -254,20 +184,10 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   ContactWork before; // of the movers alone
   std::swap(before.fragment, work.fragment);
   std::swap(before.active, work.active);
-  std::swap(before.broken, work.broken);
-  std::swap(before.joint, work.joint);
-  std::swap(before.fragments_at_joint, work.fragments_at_joint);
   std::swap(before.movers, work.movers);
   std::swap(before.travelled, work.travelled);
   std::swap(before.skin, work.skin);
-  std::swap(before.inner_skin, work.inner_skin);
-  std::swap(before.near, work.near);
-  std::swap(before.search_of, work.search_of);
-  std::swap(before.look_at, work.look_at);
-  std::swap(before.left, work.left);
-  std::swap(before.past_others, work.past_others);
   std::swap(before.swing, work.swing);
-  std::swap(before.gone_before, work.gone_before);
   std::swap(before.drift, work.drift);
   work.fragment_of_node = fragments_of_nodes(model, state, Joins::told);
   work.fragment.resize(s.triangles.size());
@@ -283,7 +203,6 @@ void find_fragments(const Model& model, const State& state, ContactWork& work) {
   find_nodes(model, work);
   find_pieces(model, work);
   find_single_tets(model, work);
-  find_joints(model, state, work);
   find_tets_beyond(model, work);
   carry_over(model, state, before, work);
 }
@@ -324,13 +243,14 @@ void set_displacements(const Model& model, const State& state, ContactWork& work
     way *= work.step;
 }
 
+namespace {
+
+// With several ranks, the one that follows a fragment. fragment: from the first mover after the blocks on.
 int rank_of_fragment(const ContactWork& work, std::int64_t fragment) {
   const Movers& movers = work.movers;
   const int begin = movers.node_begin[fragment];
   return begin < movers.node_begin[fragment + 1] ? work.shared->part().owner_of_node(movers.nodes[begin]) : 0;
 }
-
-namespace {
 
 void share_drifts(std::int64_t blocks, ContactWork& work) {
   const std::int64_t fragments = work.movers.count() - blocks;
@@ -358,7 +278,6 @@ void set_drifts(const Model& model, const State& state, ContactWork& work, int t
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
   work.drift.resize(movers.count(), geom::Vec3::Zero());
   work.swing.resize(movers.count());
-  work.gone_before.resize(movers.count());
   for_chunks(movers.count() - blocks, threads, [&](std::int64_t fragment) {
     if (work.shared && rank_of_fragment(work, fragment) != work.shared->part().rank)
       return;
@@ -385,11 +304,9 @@ void begin_drifts(const Model& model, const State& state, const Renewed& renewed
   const auto blocks = static_cast<int>(model.blocks.size());
   if (movers.count() > blocks)
     work.at_search.resize(model.node_position.size(), geom::Vec3::Zero());
-  work.gone_before.resize(movers.count());
   for (int m = blocks; m < movers.count(); ++m) {
     if (!renewed.movers[m])
       continue;
-    work.gone_before[m] = renewed.within[m] ? 0 : gone_at_most(model, work, m);
     for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
       work.at_search[movers.nodes[i]] = vec(state.displacement[movers.nodes[i]]);
   }
@@ -399,49 +316,6 @@ double gone_since(const ContactWork& work, int a, int b, const std::array<float,
   constexpr double rounding = 1e-6; // of lengths kept as floats
   const geom::Vec3 then(drifts[0], drifts[1], drifts[2]), now = work.drift[b] - work.drift[a];
   return (now - then).norm() + work.swing[a] + work.swing[b] + swings + rounding * (now.norm() + then.norm());
-}
-
-namespace {
-
-// Looks at what is near one fragment, and forgets what is no longer.
-void look_around(const Model& model, ContactWork& work, int m) {
-  std::vector<NearMover>& near = work.near[m];
-  const auto stays = [&](const NearMover& other) {
-    const int k = work.movers.of_fragment[other.fragment];
-    return k >= 0 && other.search >= work.search_of[m] && other.search >= work.search_of[k];
-  };
-  near.erase(std::remove_if(near.begin(), near.end(), [&](const NearMover& other) { return !stays(other); }),
-             near.end());
-  geom::Vec3 past = geom::Vec3::Zero(); // m, the mean of what it has gone past those around it
-  for (const NearMover& other : near)
-    past += work.drift[m] - work.drift[work.movers.of_fragment[other.fragment]] +
-            geom::Vec3(other.drifts[0], other.drifts[1], other.drifts[2]);
-  work.past_others[m] = near.empty() ? 0 : past.norm() / static_cast<double>(near.size()) + work.swing[m];
-  double least = work.skin[m] - gone_at_most(model, work, m);
-  for (const NearMover& other : near) {
-    const int k = work.movers.of_fragment[other.fragment];
-    const double gone = std::min(gone_since(work, m, k, other.drifts, other.swings),
-                                 work.travelled[m] + work.travelled[k] - other.travelled),
-                 may_go = std::max(0.0, other.may_go - gone);
-    least = std::min(least, may_go);
-    work.look_at[k] = std::min(work.look_at[k], work.travelled[k] + 0.5 * may_go);
-    // One search is enough: of the one that goes past the others.
-    double& left = work.left[work.past_others[m] >= work.past_others[k] ? m : k];
-    left = std::min(left, may_go / other.may_go);
-  }
-  work.look_at[m] = work.travelled[m] + 0.5 * least;
-}
-
-} // namespace
-
-bool find_leavers(const Model& model, ContactWork& work) {
-  const auto blocks = static_cast<int>(model.blocks.size());
-  for (int m = blocks; m < work.movers.count(); ++m)
-    if (gone_at_most(model, work, m) > work.skin[m])
-      work.left[m] = 0;
-    else if (work.travelled[m] >= work.look_at[m] && work.left[m] > 0)
-      look_around(model, work, m);
-  return std::find(work.left.begin() + blocks, work.left.end(), 0) != work.left.end();
 }
 
 } // namespace cdem

@@ -19,30 +19,21 @@ std::vector<double> speeds_of_movers(const Model&, const State&, const ContactWo
 // Writes ContactWork::last_displacement, of the step that is as long as ContactWork::step.
 void set_displacements(const Model&, const State&, ContactWork&, int threads);
 
-// With several ranks, the one that follows a fragment: it reads all of its nodes. fragment: from the first mover after the
-// blocks on.
-int rank_of_fragment(const ContactWork&, std::int64_t fragment);
-
-// Writes ContactWork::drift and swing; begin_drifts: at_search and gone_before, of those that are searched.
+// Writes ContactWork::drift and swing; begin_drifts: at_search, of those that are searched.
 void set_drifts(const Model&, const State&, ContactWork&, int threads);
 void begin_drifts(const Model&, const State&, const Renewed&, ContactWork&);
 
-// m, upper bound of the distance of a mover's nodes from their positions at its search, with itself too. For a fragment it is
-// less than the distance that it has travelled, since a piece that trembles stays in place.
+// m, upper bound of the distance of a mover's nodes from their positions at its search. For a fragment it is less than the
+// distance that it has travelled, since a piece that trembles stays in place.
 inline double gone_at_most(const Model& model, const ContactWork& work, int mover) {
-  return mover < static_cast<int>(model.blocks.size())
-             ? work.travelled[mover]
-             : work.gone_before[mover] + work.drift[mover].norm() + work.swing[mover];
+  return mover < static_cast<int>(model.blocks.size()) ? work.travelled[mover]
+                                                       : work.drift[mover].norm() + work.swing[mover];
 }
 
 // m, at most, that places of two fragments have gone relative to each other since the difference of their drifts and the
 // sum of their swings were these.
 double gone_since(const ContactWork&, int mover_a, int mover_b, const std::array<float, 3>& drifts,
                   float swings);
-
-// Writes ContactWork::look_at and left of the fragments that have travelled so far; left: 0 for those that have left their
-// skins. True when there is one.
-bool find_leavers(const Model&, ContactWork&);
 
 // Nodes on the surface of a fragment: its search costs as much.
 inline int size_of(const ContactWork& work, int mover) {
@@ -59,14 +50,6 @@ inline bool of_several_tets(const Model& model, const ContactWork& work, int mov
 // Such a fragment within which bonds hold tets together.
 inline bool held_by_bonds(const Model& model, const ContactWork& work, int mover) {
   return of_several_tets(model, work, mover) && !work.movers.one_piece[mover];
-}
-
-// The surface of a fragment is not closed here for a semi-spring of `source`: the target is a side of a crack that ends in the
-// fragment, or the fragment is the source's own, whose triangles near the source are no targets.
-inline bool open_at(const Model& model, const ContactWork& work, int source, int target) {
-  const int mate = model.surface.triangles[target].mate;
-  return work.fragment[target] == work.fragment[source] ||
-         (mate >= 0 && work.fragment[target] == work.fragment[mate]);
 }
 
 // By how much edges of a target's triangles that lie on each other may part, over the height of a tet: where bonds hold its

@@ -1,7 +1,6 @@
 #include "libcdem/contact/broad_phase/box_lists.hpp"
 #include "libcdem/contact/broad_phase/candidates.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
-#include "libcdem/contact/broad_phase/search_shares.hpp"
 #include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libgeom/query/closest.hpp"
 
@@ -40,16 +39,6 @@ Bar bar_of(const Model& model, const State& state, const ContactWork& work, cons
     bar.into_turns[i] = 2 * (2 * moves + arm * bar.turns) / bar.into[i].norm();
   }
   return bar;
-}
-
-bool hang_together(const ContactWork& work, const ContactEdge& a, const ContactEdge& b) {
-  if (work.joint.empty())
-    return false;
-  for (const int one : a.nodes)
-    for (const int other : b.nodes)
-      if (work.joint[one] == work.joint[other])
-        return true;
-  return false;
 }
 
 bool may_hold(const Bar& bar, const geom::Vec3& normal, double turns) {
@@ -191,46 +180,6 @@ std::vector<Near> near_edges_within(const Model& model, const State& state, cons
     for (std::size_t k = k_begin; k < k_end; ++k)
       for (std::size_t l = l_begin; l < l_end; ++l)
         add_near(model, work, margins, bars, k, bars, l, out);
-  }
-  return out;
-}
-
-std::vector<Near> near_edges_of_fragments(const Model& model, const State& state, const ContactWork& work,
-                                          const SearchMargin& margins, int block,
-                                          const std::vector<char>& searched) {
-  const ContactSurface& s = model.surface;
-  const double depth = std::max(edge_depth(work, block), margins.known(block, block));
-  Bars bars(model, state, work, Skins(margins.allowed()));
-  geom::Box everywhere;
-  std::swap(everywhere.min, everywhere.max);
-  std::vector<geom::Box> boxes;
-  std::vector<char> wanted;
-  for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
-    bars.add(t, everywhere);
-  for (std::size_t k = 0; k < bars.edges().size(); ++k) {
-    boxes.push_back(
-        grown(bars.boxes()[k], 0.5 * depth + margins.allowed()[work.movers.of_triangle[bars.triangle(k)]]));
-    wanted.push_back(searched[bars.edges()[k]]);
-  }
-  std::vector<Near> out;
-  constexpr std::size_t edges_per_part = 64;
-  std::vector<double> loads((wanted.size() + edges_per_part - 1) / edges_per_part, 0.0);
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    loads[k / edges_per_part] += wanted[k];
-  std::vector<char> own_wanted(wanted.size(), 0);
-  for (const std::int64_t part : own_share(work, loads))
-    for (std::size_t k = part * edges_per_part; k < std::min((part + 1) * edges_per_part, wanted.size()); ++k)
-      own_wanted[k] = wanted[k];
-  if (std::count(own_wanted.begin(), own_wanted.end(), 0) == static_cast<std::ptrdiff_t>(wanted.size()))
-    return out;
-  for (const auto& [k, l] : geom::touching_pairs(boxes, own_wanted)) {
-    if (!own_wanted[wanted[k] ? k : l]) // of a pair that two ranks see, the one with its first edge takes it
-      continue;
-    const int a = bars.triangle(k), b = bars.triangle(l);
-    if (hang_together(work, work.edges[bars.edges()[k]], work.edges[bars.edges()[l]]))
-      continue;
-    if (work.fragment[a] != work.fragment[b] || apart_at_first(model, work, a, b))
-      add_near(model, work, margins, bars, k, bars, l, out);
   }
   return out;
 }

@@ -23,16 +23,14 @@ public:
   SpringsOfSource(const Model& model, const State& state, const ContactWork& work,
                   const SearchMargin& margins, const ActiveSurface& active, const Skins& skins)
       : s_(model.surface), model_(model), state_(state), work_(work), margins_(margins), active_(active),
-        skins_(skins), own_skins_(skins.of_pair() ? skins : Skins(margins.allowed())) {}
+        skins_(skins) {}
 
-  // pairs [begin, end); of_springs: per pair, which semi-springs look at the target, a bit each; empty: all
-  void add(const Pairs& pairs, const std::vector<std::uint8_t>& of_springs, std::size_t begin,
-           std::size_t end, std::vector<Near>& out) {
+  // pairs [begin, end)
+  void add(const Pairs& pairs, std::size_t begin, std::size_t end, std::vector<Near>& out) {
     const int source = pairs[begin].first;
     const ContactTriangle &from = triangle(source), &first = triangle(pairs[begin].second);
-    const int own = mover(source), other = mover(pairs[begin].second);
-    // What a mover does relative to itself is not watched: until it leaves its skin.
-    const double skins = own == other ? 2 * margins_.allowed()[own] : skins_.between(own, other);
+    const int other = mover(pairs[begin].second);
+    const double skins = skins_.between(mover(source), other);
     gives_ = gives_of(model_, work_, first.block, other);
     double margin_of_targets = 0, one_place_of_targets = 0; // the largest
     for (std::size_t i = begin; i < end; ++i) {
@@ -41,7 +39,7 @@ public:
       one_place_of_targets = std::max(one_place_of_targets, one_place(to));
     }
     const double deepest = std::min(2 * depth_of(work_, from), margins_(from) + margin_of_targets);
-    find_nearest(pairs, of_springs, begin, end, skins,
+    find_nearest(pairs, begin, end, skins,
                  (1 + 8 * same_place) * (deepest + 3 * skins) + 8 * one_place_of_targets);
     std::array<double, 3> need{};
     for (int corner = 0; corner < 3; ++corner) {
@@ -52,9 +50,7 @@ public:
       const ContactTriangle& to = triangle(found.target);
       const double d = std::sqrt(found.distance2);
       const double deep = std::min(2 * depth_limit(work_, from, to), margins_(from) + margins_(to));
-      // Those of fragments stand in or beside a tetrahedron of the target. Where the two sides of a crack overlap such a
-      // semi-spring may be outside the nearest triangle and inside the next.
-      if (d <= (found.inside() || !of_springs.empty() ? deep + skins : skins))
+      if (d <= (found.inside() ? deep + skins : skins))
         need[corner] = d + 2 * skins;
       for (const HoldingTet& tet : holding_[corner])
         if (tet.distance <= deepest + skins)
@@ -104,8 +100,7 @@ private:
   }
 
   // What is further off than `reach` is left out: nothing comes of it, nor is it one place with what something comes of.
-  void find_nearest(const Pairs& pairs, const std::vector<std::uint8_t>& of_springs, std::size_t begin,
-                    std::size_t end, double skins, double reach) {
+  void find_nearest(const Pairs& pairs, std::size_t begin, std::size_t end, double skins, double reach) {
     const Corners& x = active_.facets[pairs[begin].first].x;
     std::array<geom::Vec3, 3> spring;
     std::array<bool, 3> gets_in{};
@@ -113,7 +108,7 @@ private:
       spring[corner] = weighted(x, spring_weights(corner));
       gets_in[corner] =
           may_get_into(model_, work_, active_, spring[corner], triangle(pairs[begin].first).block,
-                       triangle(pairs[begin].second).block, own_skins_);
+                       triangle(pairs[begin].second).block, skins_);
     }
     const bool of_tets = of_several_tets(model_, work_, mover(pairs[begin].second));
     std::array<NearestOfTets, 3> of_surface;
@@ -127,8 +122,7 @@ private:
       auto& each = distance_.emplace_back();
       for (int corner = 0; corner < 3; ++corner) {
         each[corner] = std::numeric_limits<double>::infinity();
-        const bool looks = of_springs.empty() || (of_springs[i] >> corner & 1u) != 0;
-        if (!looks || !gets_in[corner] || least_distance2(spring[corner], to.x) > reach * reach)
+        if (!gets_in[corner] || least_distance2(spring[corner], to.x) > reach * reach)
           continue;
         const Nearest found = nearest_of(target, spring[corner], to.x, to.normal);
         each[corner] = std::sqrt(found.distance2);
@@ -152,7 +146,6 @@ private:
   const SearchMargin& margins_;
   const ActiveSurface& active_;
   const Skins& skins_;
-  Skins own_skins_;                                // of blocks, not those of fragments relative to each other
   double gives_ = 0;                               // of the fragment
   std::array<Nearest, 3> nearest_;                 // of each spring
   std::array<std::vector<HoldingTet>, 3> holding_; // of each spring
@@ -195,26 +188,19 @@ void sort_by_source(Pairs& pairs, const Piece& fragment) {
 std::vector<Near> near_springs(const Model& model, const State& state, const ContactWork& work,
                                const SearchMargin& margins, const ActiveSurface& active, Pairs& pairs,
                                const Skins& skins) {
-  sort_by_source(pairs,
-                 [&](const std::pair<int, int>& p) { return work.fragment[active.triangles[p.second]]; });
-  return near_springs(model, state, work, margins, active, pairs, {}, skins);
-}
-
-std::vector<Near> near_springs(const Model& model, const State& state, const ContactWork& work,
-                               const SearchMargin& margins, const ActiveSurface& active, const Pairs& sorted,
-                               const std::vector<std::uint8_t>& of_springs, const Skins& skins) {
   const auto fragment = [&](const std::pair<int, int>& p) {
     return work.fragment[active.triangles[p.second]];
   };
+  sort_by_source(pairs, fragment);
   std::vector<Near> out;
-  if (sorted.empty())
+  if (pairs.empty())
     return out;
   SpringsOfSource springs(model, state, work, margins, active, skins);
-  for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
-    while (end < sorted.size() && sorted[end].first == sorted[begin].first &&
-           fragment(sorted[end]) == fragment(sorted[begin]))
+  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
+    while (end < pairs.size() && pairs[end].first == pairs[begin].first &&
+           fragment(pairs[end]) == fragment(pairs[begin]))
       ++end;
-    springs.add(sorted, of_springs, begin, end, out);
+    springs.add(pairs, begin, end, out);
   }
   return out;
 }

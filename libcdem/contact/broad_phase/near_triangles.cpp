@@ -136,26 +136,12 @@ geom::Box box_at_first(const Model& model, const ContactWork& work, int t) {
                 far_at_first(work, triangle));
 }
 
-} // namespace
-
-void find_boxes_at_first(const Model& model, ContactWork& work) {
-  const ContactSurface& s = model.surface;
-  work.boxed.resize(model.blocks.size(), 0);
-  for (std::size_t b = 0; b < work.broken.size(); ++b) {
-    if (!work.broken[b] || work.boxed[b])
-      continue;
-    work.boxed[b] = 1;
-    work.boxes_at_first.resize(s.triangles.size());
-    for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t)
-      work.boxes_at_first[t] = box_at_first(model, work, t);
-  }
-}
-
+// Whether two triangles of what hangs together were so far from each other at first that they may meet.
 bool apart_at_first(const Model& model, const ContactWork& work, int triangle_a, int triangle_b) {
-  if (work.boxed[model.surface.triangles[triangle_a].block])
-    return apart(work.boxes_at_first[triangle_a], work.boxes_at_first[triangle_b]);
   return apart(box_at_first(model, work, triangle_a), box_at_first(model, work, triangle_b));
 }
+
+} // namespace
 
 NearWithin near_within(const Model& model, const ContactWork& work, const SearchMargin& margins,
                        const ActiveSurface& active, int block) {

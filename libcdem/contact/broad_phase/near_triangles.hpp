@@ -29,12 +29,6 @@ Pairs looked_at(const Model&, const ContactWork&, const ActiveSurface&, const Sh
 bool may_get_into(const Model&, const ContactWork&, const ActiveSurface&, const geom::Vec3& x,
                   int source_block, int block, const Skins&);
 
-// Writes ContactWork::boxes_at_first and boxed.
-void find_boxes_at_first(const Model&, ContactWork&);
-
-// Whether two triangles of what hangs together were so far from each other at first that they may meet.
-bool apart_at_first(const Model&, const ContactWork&, int triangle_a, int triangle_b);
-
 // Near pairs within one block: triangles of different fragments, and triangles of one fragment that were apart in the
 // undeformed body.
 struct NearWithin {

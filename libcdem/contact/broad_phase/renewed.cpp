@@ -2,9 +2,6 @@
 
 #include "libcdem/contact/broad_phase/movers.hpp"
 
-#include "libcdem/ranks/bytes.hpp"
-#include "libcdem/ranks/shared_state.hpp"
-
 #include <algorithm>
 
 namespace cdem {
@@ -13,10 +10,9 @@ namespace {
 // New surface over the size of a fragment: with more of it the whole is searched, which then costs less than what is around.
 constexpr double most_new_surface = 1 / 16.;
 
-// Writes Renewed::sources and surfaced. Rows of what has changed that stay are looked at.
+// Writes Renewed::surfaced. Rows of what has changed that stay are looked at.
 void find_changed(const Model& model, ContactWork& work, Renewed& renewed) {
   const std::vector<ContactTriangle>& triangles = model.surface.triangles;
-  renewed.sources.assign(triangles.size(), Renewed::Rows::none);
   renewed.surfaced.assign(work.movers.count(), 0);
   const auto changed = [&](int t) { return work.changed[t] != Change::none; };
   std::vector<int> surfaced(work.movers.count(), 0); // triangles
@@ -25,8 +21,6 @@ void find_changed(const Model& model, ContactWork& work, Renewed& renewed) {
     if (changed(t)) {
       any = true;
       renewed.blocks[triangles[t].block] = 1;
-      if (work.changed[t] >= Change::joint)
-        renewed.sources[t] = Renewed::Rows::all;
       if (work.changed[t] == Change::surface)
         ++surfaced[work.movers.of_triangle[t]];
     }
@@ -34,36 +28,17 @@ void find_changed(const Model& model, ContactWork& work, Renewed& renewed) {
     if (surfaced[m] > 0) {
       renewed.surfaced[m] = 1;
       if (surfaced[m] > most_new_surface * size_of(work, m))
-        renewed.movers[m] = renewed.within[m] = 1;
+        renewed.movers[m] = 1;
     }
   if (!any)
     return;
-  std::vector<int> mixed; // sources of rows kept here whose targets are of one fragment no more
   for (ContactRow& row : work.rows[Contact::spring]) {
     const ContactCandidate* const first = work.candidates[Contact::spring].data() + row.begin;
-    const auto any_target = [&](const auto& which) {
-      return std::any_of(first, first + row.count,
-                         [&](const ContactCandidate& c) { return which(static_cast<int>(c.target)); });
-    };
-    if (row.pair >= 0 || !(changed(row.source) || any_target(changed)))
-      continue;
-    row.recheck_distance = row.allowed = row.reach = 0;
-    if (any_target([&](int t) { return work.fragment[t] != work.fragment[first->target]; }))
-      mixed.push_back(row.source);
-  }
-  const auto add = [&](const std::vector<int>& sources) {
-    for (const int source : sources)
-      renewed.sources[source] = std::max(renewed.sources[source], Renewed::Rows::of_surfaced);
-  };
-  add(mixed);
-  if (!work.shared)
-    return;
-  Pack pack;
-  pack(mixed);
-  for (const std::string& heard : ranks().gather(pack.text())) {
-    Unpack unpack(heard);
-    unpack(mixed);
-    add(mixed);
+    if (row.pair < 0 &&
+        (changed(row.source) || std::any_of(first, first + row.count, [&](const ContactCandidate& c) {
+           return changed(static_cast<int>(c.target));
+         })))
+      row.recheck_distance = row.allowed = row.reach = 0;
   }
 }
 
@@ -73,15 +48,11 @@ Renewed movers_to_search(const Model& model, ContactWork& work, bool all) {
   Renewed renewed;
   renewed.all = all;
   renewed.movers.assign(work.movers.count(), static_cast<char>(all));
-  renewed.within = renewed.movers;
   renewed.blocks.assign(model.blocks.size(), static_cast<char>(all));
-  for (auto m = static_cast<int>(model.blocks.size()); !all && m < work.movers.count(); ++m) {
-    const double left = work.movers.one_piece[m] ? searched_with_others : searched_within;
-    renewed.within[m] =
-        static_cast<char>(work.search_of[m] == 0 || gone_at_most(model, work, m) > (1 - left) * work.skin[m]);
-    if (renewed.within[m] || work.left[m] < searched_with_others)
+  for (auto m = static_cast<int>(model.blocks.size()); !all && m < work.movers.count(); ++m)
+    if (work.skin[m] == 0 || // new
+        gone_at_most(model, work, m) > (1 - searched_with_others) * work.skin[m])
       renewed.movers[m] = renewed.blocks[work.movers.block[m]] = 1;
-  }
   find_changed(model, work, renewed);
   return renewed;
 }
@@ -122,37 +93,6 @@ void edges_to_search(const Model& model, const ContactWork& work, const std::vec
   }
   for (std::size_t e = 0; e < known.size(); ++e)
     renewed.edges[e] = static_cast<char>(renewed.edges[e] | !known[e]);
-}
-
-void keep_near_movers(const Model& model, const Pairs& pairs, const std::vector<char>& searched,
-                      ContactWork& work) {
-  work.near.resize(work.movers.count());
-  work.search_of.resize(work.movers.count(), 0);
-  work.left.resize(work.movers.count(), 1);
-  work.look_at.resize(work.movers.count(), 0);
-  work.past_others.resize(work.movers.count(), 0);
-  const auto search = static_cast<int>(work.searches);
-  for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m)
-    if (searched[m]) {
-      work.near[m].clear();
-      work.search_of[m] = search;
-      work.left[m] = 1;
-      work.past_others[m] = 0;
-      work.look_at[m] = work.travelled[m] + 0.5 * (work.skin[m] - gone_at_most(model, work, m));
-    }
-  for (const auto& [a, b] : pairs)
-    for (const auto& [m, other] : {std::pair(a, b), std::pair(b, a)}) {
-      NearMover near;
-      near.fragment = work.movers.fragment[other];
-      near.search = search;
-      near.may_go = rounded_down(work.inner_skin[m] + work.inner_skin[other]);
-      near.travelled = work.travelled[m] + work.travelled[other];
-      near.swings = static_cast<float>(work.swing[m] + work.swing[other]);
-      for (int axis = 0; axis < 3; ++axis)
-        near.drifts[axis] = static_cast<float>(work.drift[other][axis] - work.drift[m][axis]);
-      work.near[m].push_back(near);
-      work.look_at[m] = std::min(work.look_at[m], work.travelled[m] + 0.5 * near.may_go);
-    }
 }
 
 } // namespace cdem

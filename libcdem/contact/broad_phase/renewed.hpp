@@ -8,16 +8,11 @@ namespace cdem {
 
 // What a search renews. The rows of all others stay as they are.
 struct Renewed {
-  bool all = true;          // movers; but rigid pairs may keep their rows
-  std::vector<char> movers; // per mover
-  std::vector<char> within; // per mover, of those: its rows with itself too
-  std::vector<char> blocks; // per block: one of its movers, or something on it
-  // Per mover: new surface of it has opened, and so rows of other blocks with it. Per triangle: rows of its semi-springs with
-  // targets of its own block.
-  enum class Rows : char { none, of_surfaced, all };
-  std::vector<char> surfaced;
-  std::vector<Rows> sources;
-  std::vector<char> edges; // per edge: of such a mover, new, or where something has changed
+  bool all = true;            // movers; but rigid pairs may keep their rows
+  std::vector<char> movers;   // per mover
+  std::vector<char> blocks;   // per block: one of its movers, or something on it
+  std::vector<char> surfaced; // per mover: new surface of it has opened, and so rows of other blocks with it
+  std::vector<char> edges;    // per edge: of such a mover, new, or where something has changed
   // Per edge as it was numbered before, its number now; -1: it is no more. Empty: as before.
   std::vector<int> edge_now;
   // Per rigid pair as it was numbered before, its number now; -1: its rows are found anew.
@@ -26,18 +21,12 @@ struct Renewed {
 
 // Share of a skin: a fragment with less left is searched with the first that leaves its own.
 inline constexpr double searched_with_others = 0.6;
-// The same of a fragment that is searched with itself too, which costs most of its search.
-inline constexpr double searched_within = 0.2;
 
-// Movers that are new, and those that have left their skins or soon will, or all; and sources that may meet what they could
-// not before, or whose targets are of one fragment no more. Other rows of what has changed are looked at in this step.
+// Movers that are new, and those that have left their skins or soon will, or all. Other rows of what has changed are looked at
+// in this step.
 Renewed movers_to_search(const Model&, ContactWork&, bool all);
 // Writes Renewed::edges and edge_now. before: the edges by the numbers they had.
 void edges_to_search(const Model&, const ContactWork&, const std::vector<ContactEdge>& before,
                      bool fragments_due, Renewed&);
-
-// Writes ContactWork::near, search_of, left, look_at and past_others of the fragments that were searched, and of those near
-// them. pairs: of movers.
-void keep_near_movers(const Model&, const Pairs& pairs, const std::vector<char>& searched, ContactWork&);
 
 } // namespace cdem

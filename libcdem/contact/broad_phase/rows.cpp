@@ -93,7 +93,7 @@ private:
     if (kind_ == Contact::spring) { // all its targets are of one fragment
       const ContactCandidate* const first = candidates.data() + row.begin;
       const auto target = static_cast<int>(first->target);
-      if (of_pair || (!is_renewed(row.source, target) && !changes(row.source, target)))
+      if (of_pair || !is_renewed(row.source, target))
         kept_.assign(first, first + row.count);
       return !kept_.empty();
     }
@@ -115,24 +115,15 @@ private:
     }
     return !kept_.empty();
   }
-  // A row of semi-springs of which neither mover is searched, or of one mover that is not searched with itself.
-  bool changes(int source, int target) const {
-    return surface_.triangles[source].block == block(static_cast<std::uint32_t>(target))
-               ? renewed_.sources[source] == Renewed::Rows::all ||
-                     (renewed_.sources[source] != Renewed::Rows::none && renewed_.surfaced[mover(target)])
-               : work_.changed[source] >= Change::joint || renewed_.surfaced[mover(target)];
-  }
   bool is_renewed(int source, int target) const { // triangles
-    const int a = mover(source), b = mover(target);
-    return a == b ? renewed_.within[a] : renewed_.movers[a] || renewed_.movers[b];
+    return renewed_.movers[mover(source)] || renewed_.movers[mover(target)] ||
+           work_.changed[source] == Change::surface || renewed_.surfaced[mover(target)];
   }
 
   void keep(ContactRow row, int source) {
     row.source = source;
     if (row.pair >= 0)
       row.pair = renewed_.pair_now[row.pair];
-    else if (renewed_.movers[mover(source)]) // drifts begin again
-      row.allowed = 0;
     place(row, kept_.data(), static_cast<std::uint32_t>(kept_.size()));
   }
 

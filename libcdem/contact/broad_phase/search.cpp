@@ -4,11 +4,9 @@
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
 #include "libcdem/contact/broad_phase/movers.hpp"
-#include "libcdem/contact/broad_phase/near_fragments.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/rows.hpp"
 #include "libcdem/contact/broad_phase/search_shares.hpp"
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libcdem/joint/softening.hpp"
@@ -207,7 +205,6 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   if (fragments_due) {
     std::swap(edges_before, work.edges);
     find_fragments(model, state, work);
-    find_boxes_at_first(model, work);
     find_semi_edges(model, state, work);
     set_displacements(model, state, work, threads);
     find_pairwise(model, state, work);
@@ -237,13 +234,13 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   PairsSearched pairs =
       pairs_to_search(model, state, work, margins, pace, renewed.all ? &rigid_near : nullptr);
   renewed.pair_now = std::move(pairs.now);
-  std::vector<int> alone, shattered; // blocks that may touch themselves
+  std::vector<int> alone; // whole blocks that may touch themselves
   // A star cannot: where the tetrahedra around its middle fill all directions once and none is turned over, each ray from
   // there meets its surface once.
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
     if (model.blocks[b].meshed && !model.blocks[b].star() && model.blocks[b].rigid < 0 && renewed.blocks[b] &&
-        contact_joint(model, b, b))
-      (work.broken[b] ? shattered : alone).push_back(b);
+        !work.broken[b] && contact_joint(model, b, b))
+      alone.push_back(b);
   const auto n_pairs = static_cast<std::int64_t>(blocks.size()),
              n_alone = static_cast<std::int64_t>(alone.size());
   std::vector<double> loads;
@@ -303,13 +300,6 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     if (found.wrong.empty())
       found.wrong = wrong[i];
   }
-  for (const int block : shattered) {
-    found.edges.push_back(near_edges_of_fragments(model, state, work, margins, block, renewed.edges));
-    NearFragments near = near_fragments(model, state, work, margins, active, block, renewed, threads);
-    for (std::vector<Near>& part : near.springs)
-      found.springs.push_back(std::move(part));
-    found.movers.insert(found.movers.end(), near.movers.begin(), near.movers.end());
-  }
   share_found(model, work, renewed.all && !pairs.kept, found);
   if (!found.wrong.empty())
     throw SolutionError(found.wrong);
@@ -319,17 +309,13 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   work.undefined_pair_margin =
       renewed.all ? found.may_go : std::min(work.undefined_pair_margin, found.may_go);
   for (int m = 0; m < work.movers.count(); ++m)
-    if (renewed.within[m]) // else its rows with itself go on by it
+    if (renewed.movers[m])
       work.travelled[m] = 0;
   begin_drifts(model, state, renewed, work);
   set_drifts(model, state, work, threads);
   ++work.searches;
-  keep_tet_pairs(model, renewed.movers, found.movers, work);
-  keep_near_movers(model, found.movers, renewed.movers, work);
-  if (work.anew) { // whatever is known, all is looked at
+  if (work.anew) // whatever is known, all is looked at
     let_all_wake(work, any_bonded_faces(model, state));
-    let_tet_pairs_wake(work);
-  }
   if (renewed.all)
     work.steps_since_search = 0;
   work.fragments_due = work.blocks_due = work.pairs_due = work.all_due = work.anew = false;

@@ -1,6 +1,5 @@
 #include "libcdem/contact/broad_phase/search_shares.hpp"
 
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
@@ -43,11 +42,6 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
     source = near.source;
     mover = of;
   });
-  for (const auto& [a, b] : found.movers)
-    if (is_single_tet(model, work, a) && is_single_tet(model, work, b))
-      for (const int single : {a, b})
-        for (const int triangle : work.movers.triangles_of_tet[single])
-          ++counts[triangle / triangles_per_count];
   ranks().sum(counts.data(), counts.size());
   work.triangle_begin =
       even_shares(std::vector<double>(counts.begin(), counts.end()), work.shared->part().size);
@@ -125,23 +119,15 @@ void share_found(const Model& model, ContactWork& work, bool all, FoundNear& fou
   ranks().largest(&nearest, 1);
   found.may_go = -nearest;
   Pack pack;
-  pack(found.movers);
-  const std::vector<char> wrong(found.wrong.begin(), found.wrong.end());
-  pack(wrong);
-  found.movers.clear();
+  pack(std::vector<char>(found.wrong.begin(), found.wrong.end()));
   found.wrong.clear();
   for (const std::string& heard : ranks().gather(pack.text())) {
     Unpack unpack(heard);
-    Pairs movers;
     std::vector<char> wrong_there;
-    unpack(movers);
     unpack(wrong_there);
-    found.movers.insert(found.movers.end(), movers.begin(), movers.end());
     if (found.wrong.empty())
       found.wrong.assign(wrong_there.begin(), wrong_there.end());
   }
-  std::sort(found.movers.begin(), found.movers.end());
-  found.movers.erase(std::unique(found.movers.begin(), found.movers.end()), found.movers.end());
 }
 
 } // namespace cdem

@@ -1,7 +1,6 @@
-// A search with several ranks. The pairs of blocks, and the parts of broken bodies, are assigned to the ranks by
-// counted loads. Each rank sends the pairs that it finds near a source to the rank that keeps the row
-// (data/row_owner.hpp). Runs of triangles are cut by the rows and candidates that a search of all movers has found. A
-// single rank searches and keeps everything.
+// A search with several ranks. The pairs of blocks are assigned to the ranks by counted loads. Each rank sends the pairs that
+// it finds near a source to the rank that keeps the row (data/row_owner.hpp). Runs of triangles are cut by the rows and
+// candidates that a search of all movers has found. A single rank searches and keeps everything.
 #pragma once
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
@@ -19,7 +18,6 @@ double near_triangles_of(const ActiveSurface&, int block_a, int block_b);
 // What a search found near each other, and beside it.
 struct FoundNear {
   std::vector<std::vector<Near>> springs, edges;           // in parts
-  Pairs movers;                                            // fragments near each other, the lower one first
   double may_go = std::numeric_limits<double>::infinity(); // m, ContactWork::undefined_pair_margin
   std::string wrong; // what is wrong with the first pair that is; empty: nothing
 };

@@ -1,131 +1,324 @@
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
 
-#include "libcdem/contact/data/row_owner.hpp"
+#include "libcdem/contact/broad_phase/tet_paths.hpp"
+#include "libcdem/contact/broad_phase/tets_beyond.hpp"
+#include "libcdem/contact/data/tet_contacts.hpp"
+#include "libcdem/contact/response/tet_potential.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
+#include "libcdem/state/places.hpp"
+#include "libgeom/core/disjoint_sets.hpp"
+#include "libgeom/query/box_pairs.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 namespace cdem {
 namespace {
 
-TetShape shape_of(const Model& model, const std::array<int, 4>& triangles) {
-  const ContactSurface& s = model.surface;
-  TetShape shape;
-  shape.triangles = triangles;
-  shape.nodes = model.tets[s.triangles[triangles[0]].tet];
-  for (int k = 0; k < 4; ++k) {
-    const ContactTriangle& triangle = s.triangles[triangles[k]];
-    shape.mates[k] = triangle.mate;
-    shape.height = std::max(shape.height, triangle.height);
-    for (int corner = 0; corner < 3; ++corner)
-      shape.corners[k][corner] = static_cast<std::uint8_t>(
-          std::find(shape.nodes.begin(), shape.nodes.end(), triangle.nodes[corner]) - shape.nodes.begin());
+using TetPair = std::pair<int, int>;
+
+// Skin of a tetrahedron, over the usual height of one at the surface of its block.
+constexpr double skin_ratio = 0.05;
+// Rings of tetrahedra below the surface for which pairs are found too: cracks will open some of them.
+constexpr int rings_below = 2;
+// Steps for which pairs are near.
+constexpr double steps_near = 30;
+
+std::vector<int> joints_of(const Model& model, const State& state, const ContactWork& work) {
+  geom::DisjointSets sets(model.node_position.size());
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (!work.broken[chunk.block] || (state.faces[batch].told[lane] & ToldOfFace::left) != 0)
+      return;
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
+    for (int k = 0; k < 3; ++k)
+      sets.unite(nodes.a[k], nodes.b[k]);
+  });
+  std::vector<int> joint(model.node_position.size());
+  for (int node = 0; node < static_cast<int>(joint.size()); ++node)
+    joint[node] = sets.find(node);
+  return joint;
+}
+
+bool may_touch(const TetContacts& of, const SurfaceTet& a, const SurfaceTet& b) {
+  if (!a.at_surface || !b.at_surface)
+    return false;
+  for (const int m : a.nodes)
+    for (const int n : b.nodes)
+      if (of.joint[m] == of.joint[n])
+        return false;
+  return true;
+}
+
+// The tetrahedra at the surface and the next ones below it.
+std::vector<char> with_rings(const Model& model, const Block& block, std::vector<char> some) {
+  const std::vector<int>& original = model.surface.original;
+  std::vector<char> reached(original.size(), 0);
+  for (int ring = 0; ring < rings_below; ++ring) {
+    for (std::size_t i = 0; i < some.size(); ++i)
+      if (some[i])
+        for (const int node : model.tets[block.tet_begin + i])
+          reached[original[node]] = 1;
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const geom::Tet& nodes = model.tets[block.tet_begin + i];
+      some[i] = static_cast<char>(
+          std::any_of(nodes.begin(), nodes.end(), [&](int node) { return reached[original[node]] != 0; }));
+    }
   }
-  return shape;
+  return some;
 }
 
-// One pair and what is known of it, from one list to another.
-void add(const TetPairs& from, std::size_t p, TetPairs& to) {
-  to.a.push_back(from.a[p]);
-  to.b.push_back(from.b[p]);
-  to.until.push_back(from.until[p]);
-  to.motion.push_back(from.motion[p]);
+void add_tets(const Model& model, const ContactWork& work, int block, TetContacts& to) {
+  const Block& b = model.blocks[block];
+  const std::vector<char> at_surface = tets_at_surface(model, work, block),
+                          all = with_rings(model, b, at_surface);
+  const auto first = static_cast<std::ptrdiff_t>(to.nodes.size());
+  for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
+    if (all[tet - b.tet_begin]) {
+      to.number[tet] = static_cast<int>(to.tets.size());
+      to.tets.push_back(
+          {tet, block, model.tets[tet], tet_size(model, tet), at_surface[tet - b.tet_begin] != 0});
+      to.nodes.insert(to.nodes.end(), model.tets[tet].begin(), model.tets[tet].end());
+      for (int k = 0; k < 4; ++k)
+        to.corner[k].push_back(model.tets[tet][k]);
+    }
+  to.tets_begin.push_back(static_cast<int>(to.tets.size()));
+  std::sort(to.nodes.begin() + first, to.nodes.end());
+  to.nodes.erase(std::unique(to.nodes.begin() + first, to.nodes.end()), to.nodes.end());
+  to.nodes_begin.push_back(static_cast<int>(to.nodes.size()));
 }
 
-void add_new(int a, int b, bool own, TetPairs& to) {
-  to.a.push_back(a);
-  to.b.push_back(b);
-  to.until.push_back(own ? 0 : std::numeric_limits<float>::infinity());
-  to.motion.emplace_back();
+void set_places(const Model& model, const State& state, TetContacts& of) {
+  for (const int node : of.nodes) {
+    const geom::Vec3 x = place_of(model, state, node);
+    of.place[node] = {x.x(), x.y(), x.z(), 0};
+  }
 }
 
-void take_lists(TetPairs& from, TetPairs& to) {
-  to.a = std::move(from.a);
-  to.b = std::move(from.b);
-  to.until = std::move(from.until);
-  to.motion = std::move(from.motion);
+// Adds pairs that no plane of one of them parts by more than their skins.
+void add_near(const std::vector<TetPair>& pairs, TetContacts& to) {
+  constexpr std::size_t at_a_time = 64 * lanes;
+  std::vector<TetPairView> views(at_a_time / lanes);
+  for (std::size_t begin = 0; begin < pairs.size(); begin += at_a_time) {
+    const std::size_t count = std::min(at_a_time, pairs.size() - begin), full = (count + lanes - 1) / lanes;
+    for (std::size_t i = 0; i < lanes * full; ++i) {
+      const auto& [a, b] = pairs[begin + std::min(i, count - 1)];
+      views[i / lanes].set(static_cast<int>(i % lanes), to.tets[a].nodes, to.tets[b].nodes);
+    }
+    bound_deepest(to.place.data(), views.data(), static_cast<std::int64_t>(full));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double apart = -views[i / lanes].deepest[i % lanes];
+      if (apart > 2 * to.skin)
+        continue;
+      const auto& [a, b] = pairs[begin + i];
+      const SurfaceTet &one = to.tets[a], &other = to.tets[b];
+      to.pairs.a.push_back(a);
+      to.pairs.b.push_back(b);
+      to.pairs.allowed.push_back(rounded_down(apart));
+      to.may_touch.push_back(static_cast<char>(may_touch(to, one, other)));
+    }
+  }
+}
+
+void find_anew(const Model& model, const State& state, ContactWork& work) {
+  auto found = std::make_shared<TetContacts>();
+  TetContacts& to = *found;
+  to.place.resize(model.node_position.size());
+  to.number.assign(model.tets.size(), -1);
+  to.nodes_begin.push_back(0);
+  to.tets_begin.push_back(0);
+  to.skin = std::numeric_limits<double>::infinity();
+  for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
+    if (touches_itself(model, work, block)) {
+      add_tets(model, work, block, to);
+      to.skin = std::min(to.skin, skin_ratio * model.surface.usual_height[block]);
+    }
+  set_places(model, state, to);
+  to.paths.assign(to.tets.size());
+  to.path_then.assign(to.tets.size(), 0.0);
+  to.limit.assign(to.tets.size(), -1.0);
+  to.joint = joints_of(model, state, work);
+  std::vector<geom::Box> boxes(to.tets.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const int node : to.tets[i].nodes)
+      boxes[i].extend(geom::Vec3(to.place[node].x, to.place[node].y, to.place[node].z));
+    boxes[i].min.array() -= to.skin;
+    boxes[i].max.array() += to.skin;
+  }
+  std::vector<TetPair> pairs = geom::touching_pairs(boxes);
+  if (to.nodes_begin.size() > 2)
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                               [&](const TetPair& pair) {
+                                 return to.tets[pair.first].block != to.tets[pair.second].block;
+                               }),
+                pairs.end());
+  add_near(pairs, to);
+  for (std::vector<float>& then : to.pairs.then)
+    then.assign(to.pairs.count(), 0.0F);
+  work.tet_contacts = std::move(found);
+}
+
+// What pairs may touch, after contact has been told of bonds. False where a tetrahedron has come to the surface for which no pairs
+// are known.
+bool told_anew(const Model& model, const State& state, ContactWork& work) {
+  TetContacts& of = *work.tet_contacts;
+  std::vector<char> changed(of.tets.size(), 0);
+  std::size_t blocks = 0;
+  for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block) {
+    if (!touches_itself(model, work, block))
+      continue;
+    ++blocks;
+    const std::vector<char> at_surface = tets_at_surface(model, work, block);
+    for (std::size_t i = 0; i < at_surface.size(); ++i) {
+      const int t = of.number[model.blocks[block].tet_begin + i];
+      if (t < 0 && at_surface[i])
+        return false;
+      if (t < 0 || of.tets[t].at_surface == (at_surface[i] != 0))
+        continue;
+      of.tets[t].at_surface = at_surface[i] != 0;
+      changed[t] = 1;
+    }
+  }
+  if (blocks + 1 != of.nodes_begin.size())
+    return false;
+  std::vector<int> joint = joints_of(model, state, work);
+  for (std::size_t t = 0; t < changed.size(); ++t)
+    for (const int node : of.tets[t].nodes)
+      changed[t] = static_cast<char>(changed[t] != 0 || joint[node] != of.joint[node]);
+  std::swap(of.joint, joint);
+  for (std::size_t p = 0; p < of.pairs.count(); ++p) {
+    const int a = of.pairs.a[p], b = of.pairs.b[p];
+    if (!changed[a] && !changed[b])
+      continue;
+    const bool free = may_touch(of, of.tets[a], of.tets[b]);
+    if (free == (of.may_touch[p] != 0))
+      continue;
+    of.may_touch[p] = static_cast<char>(free);
+    of.pairs.allowed[p] = 0;
+    of.fresh = true;
+  }
+  std::fill(of.limit.begin(), of.limit.end(), -1.0);
+  return true;
+}
+
+// m, that a pair may still go, at least, by the paths of both.
+double left_by_paths(const TetContacts& of, std::size_t p) {
+  const int a = of.pairs.a[p], b = of.pairs.b[p];
+  double past2 = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double past = of.paths.drift[axis][b] - of.paths.drift[axis][a] - of.pairs.then[axis][p];
+    past2 += past * past;
+  }
+  return of.pairs.allowed[p] - std::sqrt(past2) -
+         (of.paths.swing[a] + of.paths.swing[b] - of.pairs.then[3][p]);
+}
+
+void find_near(const ContactWork& work, TetContacts& of) {
+  const double steps = static_cast<double>(std::max<std::int64_t>(1, of.steps - of.steps_then));
+  const auto way = [&](std::size_t t) { return (of.paths.path[t] - of.path_then[t]) / steps; }; // m in a step
+  double mean = 0;
+  for (std::size_t t = 0; t < of.tets.size(); ++t)
+    mean += way(t) / static_cast<double>(of.tets.size());
+  mean = std::max(mean, 1e-4 * of.skin);
+  std::vector<double> margin(of.tets.size()); // m
+  for (std::size_t t = 0; t < of.tets.size(); ++t) {
+    margin[t] = steps_near * std::max(mean, way(t));
+    of.limit[t] = of.paths.path[t] + margin[t];
+  }
+  of.path_then = of.paths.path;
+  of.steps_then = of.steps;
+  of.near.clear();
+  of.place_of_near.clear();
+  constexpr double twice = 2; // the middle and the corners of a tetrahedron go no further than its path, each
+  for (std::size_t p = 0; p < of.pairs.count(); ++p) {
+    const int a = of.pairs.a[p], b = of.pairs.b[p];
+    if (!of.may_touch[p] ||
+        (!work.looks_at_all && left_by_paths(of, p) > 2 * twice * (margin[a] + margin[b])))
+      continue;
+    of.place_of_near.push_back(static_cast<int>(p));
+    of.near.a.push_back(a);
+    of.near.b.push_back(b);
+    for (int i = 0; i < 4; ++i)
+      of.near.then[i].push_back(of.pairs.then[i][p]);
+    of.near.allowed.push_back(of.pairs.allowed[p]);
+  }
+}
+
+// Writes where the nodes are and how far the tetrahedra have gone in the step.
+void move(const Model& model, const State& state, const ContactWork& work, TetContacts& of) {
+  set_places(model, state, of);
+  for (std::size_t block = 0; block + 1 < of.nodes_begin.size(); ++block) {
+    geom::Vec3 mean = geom::Vec3::Zero(); // m/s
+    for (int i = of.nodes_begin[block]; i < of.nodes_begin[block + 1]; ++i)
+      mean += velocity_of(state, of.nodes[i]);
+    mean /= std::max(1, of.nodes_begin[block + 1] - of.nodes_begin[block]);
+    add_step(state.velocity.data(), {mean.x(), mean.y(), mean.z(), 0}, work.step, of.corner,
+             of.tets_begin[block], of.tets_begin[block + 1], of.paths);
+  }
+  ++of.steps;
+}
+
+bool any_beyond(const std::vector<double>& path, const std::vector<double>& limit) {
+  for (std::size_t t = 0; t < path.size(); ++t)
+    if (path[t] > limit[t])
+      return true;
+  return false;
+}
+
+// All pairs with a contact are looked at in this step.
+void wake_contacts(const State& state, TetContacts& of) {
+  const auto begin = std::partition_point(state.contacts.begin(), state.contacts.end(),
+                                          [](const Contact& c) { return c.kind != Contact::tets; });
+  for (auto c = begin; c != state.contacts.end(); ++c)
+    if (const int p = of.pair_of(static_cast<int>(c->source), c->target); p >= 0)
+      of.pairs.allowed[p] = 0;
+  std::fill(of.limit.begin(), of.limit.end(), -1.0);
 }
 
 } // namespace
 
-void renumber_tet_pairs(const std::vector<int>& now_of, ContactWork& work) {
-  if (!work.tet_pairs)
-    return;
-  TetPairs &pairs = *work.tet_pairs, kept;
-  for (std::size_t p = 0; p < pairs.count(); ++p) {
-    pairs.a[p] = now_of[pairs.a[p]];
-    pairs.b[p] = now_of[pairs.b[p]];
-    if (pairs.a[p] >= 0 && pairs.b[p] >= 0)
-      add(pairs, p, kept);
-  }
-  take_lists(kept, pairs);
+int TetContacts::pair_of(int tet, int other) const {
+  const int one = number[tet], two = number[other];
+  const auto begin = std::lower_bound(pairs.a.begin(), pairs.a.end(), one) - pairs.a.begin(),
+             end = std::upper_bound(pairs.a.begin() + begin, pairs.a.end(), one) - pairs.a.begin();
+  const auto found = std::lower_bound(pairs.b.begin() + begin, pairs.b.begin() + end, two);
+  return one >= 0 && two >= 0 && found != pairs.b.begin() + end && *found == two
+             ? static_cast<int>(found - pairs.b.begin())
+             : -1;
 }
 
-void keep_tet_pairs(const Model& model, const std::vector<char>& searched, Pairs& pairs, ContactWork& work) {
-  const auto of_tets =
-      std::stable_partition(pairs.begin(), pairs.end(), [&](const std::pair<int, int>& pair) {
-        return !is_single_tet(model, work, pair.first) || !is_single_tet(model, work, pair.second);
-      });
-  Pairs found;
-  std::copy_if(of_tets, pairs.end(), std::back_inserter(found), [&](const std::pair<int, int>& pair) {
-    return searched[pair.first] || searched[pair.second]; // others are known
-  });
-  if (!std::is_sorted(found.begin(), found.end()))
-    std::sort(found.begin(), found.end());
-  pairs.erase(of_tets, pairs.end());
-  if (!work.tet_pairs && found.empty())
-    return;
-  if (!work.tet_pairs)
-    work.tet_pairs = std::make_shared<TetPairs>();
-  TetPairs &before = *work.tet_pairs, now;
-  before.shape.assign(work.movers.count(), {});
-  const std::array<int, 2> own = own_triangles(work);
-  std::vector<char> keeps(work.movers.count(), 0); // this rank a triangle of it
-  for (int m = 0; m < work.movers.count(); ++m)
-    if (is_single_tet(model, work, m)) {
-      before.shape[m] = shape_of(model, work.movers.triangles_of_tet[m]);
-      for (const int triangle : before.shape[m].triangles)
-        keeps[m] = static_cast<char>(keeps[m] || keeps_tet_triangle(own, triangle));
+bool touches_itself(const Model& model, const ContactWork& work, int block) {
+  const Block& b = model.blocks[block];
+  return work.broken[block] && b.meshed && !b.star() && b.rigid < 0 && contact_joint(model, block, block);
+}
+
+void find_tet_pairs(const Model& model, const State& state, ContactWork& work, bool told) {
+  bool anew = false;
+  if (told) {
+    bool any = false;
+    for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
+      any = any || touches_itself(model, work, block);
+    if (!any)
+      work.tet_contacts = nullptr;
+    else if (!work.tet_contacts) {
+      find_anew(model, state, work);
+      anew = true;
     }
-  const std::size_t most = before.count() + found.size();
-  now.a.reserve(most);
-  now.b.reserve(most);
-  now.until.reserve(most);
-  now.motion.reserve(most);
-  auto next = found.begin();
-  const auto add_found = [&](const std::pair<int, int>& until) {
-    for (; next != found.end() && *next < until; ++next)
-      add_new(next->first, next->second, keeps[next->first] || keeps[next->second], now);
-  };
-  for (std::size_t p = 0; p < before.count(); ++p) {
-    if (searched[before.a[p]] || searched[before.b[p]])
-      continue;
-    add_found({before.a[p], before.b[p]});
-    add(before, p, now);
   }
-  add_found({std::numeric_limits<int>::max(), 0});
-  take_lists(now, before);
-  before.awake.assign((before.count() + contact_rows_per_chunk - 1) / contact_rows_per_chunk, 0);
-  before.movers_awake.clear();
-  before.in_awake.assign(work.movers.count(), 0);
-  before.now.resize(work.movers.count());
-}
-
-void let_tet_pairs_wake(ContactWork& work) {
-  if (!work.tet_pairs)
+  if (!work.tet_contacts)
     return;
-  for (float& until : work.tet_pairs->until)
-    if (until < std::numeric_limits<float>::infinity())
-      until = 0;
-  for (PairMotion& motion : work.tet_pairs->motion)
-    motion.allowed = 0;
-}
-
-std::array<int, 2> own_triangles(const ContactWork& work) {
-  if (!work.shared)
-    return {0, std::numeric_limits<int>::max()};
-  const auto rank = static_cast<std::size_t>(work.shared->part().rank);
-  return {static_cast<int>(work.triangle_begin[rank]), static_cast<int>(work.triangle_begin[rank + 1])};
+  move(model, state, work, *work.tet_contacts);
+  const TetContacts& before = *work.tet_contacts;
+  const bool left = std::any_of(before.paths.path.begin(), before.paths.path.end(),
+                                [&](double path) { return path > before.skin; });
+  if (left || (told && !told_anew(model, state, work))) {
+    find_anew(model, state, work);
+    anew = true;
+  }
+  TetContacts& of = *work.tet_contacts;
+  if (anew || relaxes(state, work)) // a pair that has just parted has a contact that must end
+    wake_contacts(state, of);
+  if (any_beyond(of.paths.path, of.limit))
+    find_near(work, of);
 }
 
 } // namespace cdem

@@ -27,13 +27,15 @@
 
 namespace cdem {
 
-class SharedState; // ranks/shared_state.hpp
-struct TetPairs;   // contact/data/tet_pairs.hpp
+class SharedState;  // ranks/shared_state.hpp
+struct TetContacts; // contact/data/tet_contacts.hpp
 
 inline constexpr std::int64_t contact_rows_per_chunk = 64;
 // Depth over the usual height of a tet at a block's surface: around a deeper contact all pairs are computed in every
 // step.
 inline constexpr double shallow_ratio = 0.01;
+// Largest depth of a contact, over the height of a tet.
+inline constexpr double depth_ratio = 0.25;
 
 struct ContactCandidate {
   std::uint32_t target : 29; // triangle or edge
@@ -78,7 +80,6 @@ struct ContactRow {
 enum class Change : char {
   none,
   fragment, // or who holds its face: springs or contact
-  joint,    // what it hung together with at a corner does so no more, and may be met there
   surface   // it was not active
 };
 
@@ -86,9 +87,8 @@ enum class Change : char {
 struct Movers {
   std::vector<int>
       of_triangle; // of each triangle that takes part: its block, or its fragment where faces have broken
-  std::vector<int> block;       // per mover
-  std::vector<int> fragment;    // per mover, its smallest node; -1: a block
-  std::vector<int> of_fragment; // by its smallest node; -1: none
+  std::vector<int> block;    // per mover
+  std::vector<int> fragment; // per mover, its smallest node; -1: a block
   std::vector<int> node_begin,
       nodes; // per fragment, from the first after the blocks on: the nodes of its triangles
   // Per mover, for fragments: no bond holds its tets together, as in a fragment of a single tet.
@@ -104,9 +104,8 @@ struct Movers {
 // normal force acts at the target's nearest place, along the line of the two; the shear force at the source's place on
 // both, so that neither turns anything.
 struct ContactArms {
-  std::array<int, 3> source{};
-  std::array<int, 4> target{};
-  std::array<double, 3> on_source{};       // weights, their sum 1
+  std::array<int, 4> source{}, target{};
+  std::array<double, 4> on_source{};       // weights, their sum 1
   std::array<double, 4> normal{}, shear{}; // weights, their sums 1
 };
 
@@ -151,16 +150,6 @@ struct TouchedNode {
   int node = 0, block = 0;
 };
 
-// A mover that may come near a fragment before the two leave their skins.
-struct NearMover {
-  int fragment = 0; // by its smallest node
-  int search = 0;   // that found it
-  float may_go = 0; // m, relative to each other since then, before their rows are to be found anew
-  float swings = 0; // m, then
-  std::array<float, 3> drifts{};
-  double travelled = 0; // m, then, by both
-};
-
 // Rows of rigid pairs, those of one pair side by side.
 struct RowsOfPairs {
   std::vector<int> begin;   // (n_pairs + 1)
@@ -191,21 +180,8 @@ struct ContactWork {
   // Per node, and per triangle: what hangs together, by its smallest node. Over faces without a broken bond only, so that
   // the surface of what has broken is closed.
   std::vector<int> fragment_of_node, fragment;
-  // Joints of nodes of cohesive bodies: the copies of a node whose tetrahedra hang together there, over faces that have not
-  // lost all their strength. Per node, the smallest of them; empty where nothing has cracked. And which fragments hang
-  // together at each: (joint, fragment), sorted. Where they do, nothing of one is in contact with the other.
-  std::vector<int> joint;
-  std::vector<std::pair<int, int>> fragments_at_joint;
-  bool hangs_at(int node, int of_fragment) const {
-    return !joint.empty() && std::binary_search(fragments_at_joint.begin(), fragments_at_joint.end(),
-                                                std::pair(joint[node], of_fragment));
-  }
   std::vector<char>
       active; // per triangle: 1 outside, or its face has a broken bond; 2 its face is left to contact; else 0
-  // Per triangle of blocks that have broken, m, undeformed: what may meet it of what it hangs together with does not meet
-  // this box; empty before any has.
-  std::vector<geom::Box> boxes_at_first;
-  std::vector<char> boxed;                     // per block: it has such boxes
   std::vector<int> neighbours;                 // mesh_neighbours; empty before any block has broken
   std::vector<std::array<int, 4>> tets_beyond; // TetsBeyond, per tet of the mesh, by face (geom::tet_faces)
   Movers movers;
@@ -237,21 +213,11 @@ struct ContactWork {
   // node from it, m. Measured from the positions at that search (n_nodes).
   std::vector<geom::Vec3> drift;
   std::vector<double> swing;
-  // m, per mover, of fragments: how far, at most, nodes were at the last search from where they were when the fragment was
-  // searched for what it may do to itself.
-  std::vector<double> gone_before;
-  std::vector<geom::Vec3> at_search;        // m
-  std::vector<std::vector<NearMover>> near; // per mover; none of two single tets
-  std::shared_ptr<TetPairs> tet_pairs;      // of two single tets; null: none has been found yet
-  // Per mover, of fragments: the last search of it; how far it may travel before the others near it are looked at; the
-  // part that is left of what it may go relative to the one that is worst off.
-  std::vector<int> search_of;
-  std::vector<double> look_at, left;     // m, 1
-  std::vector<double> past_others;       // m, how far it has gone past those around it
-  std::vector<double> last_displacement; // m, per mover, at most, in the last step
-  double last_step = 0;                  // s, the last one in which anything moved
-  std::vector<double> skin;              // m, per mover: how far it may go before the next search
-  std::vector<double> inner_skin;        // m, of fragments: how far relative to those near it
+  std::vector<geom::Vec3> at_search;         // m
+  std::shared_ptr<TetContacts> tet_contacts; // of blocks with themselves; null: none is broken
+  std::vector<double> last_displacement;     // m, per mover, at most, in the last step
+  double last_step = 0;                      // s, the last one in which anything moved
+  std::vector<double> skin;                  // m, per mover: how far it may go before the next search
   double undefined_pair_margin =
       0;                   // m, that two blocks for which no contact is given may go before a search is due
   double usual_height = 0; // m, of a tet at any surface: of skins, which change no force

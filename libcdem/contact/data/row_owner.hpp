@@ -18,6 +18,8 @@ inline bool both_rigid(const Model& model, int block_a, int block_b) {
 
 // Only the resultants of contacts of two rigid bodies are told to other ranks.
 inline bool is_told_by_sums(const Model& model, const Contact& c) {
+  if (c.kind == Contact::tets)
+    return false;
   const auto [source, target] = triangles_of(c);
   const std::vector<ContactTriangle>& triangles = model.surface.triangles;
   return both_rigid(model, triangles[source].block, triangles[target].block);

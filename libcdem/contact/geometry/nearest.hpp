@@ -129,10 +129,9 @@ struct NearestOfTets {
 
 // m, that a spring which stands outside a fragment of several tets may go, at least, before one triangle makes it stand
 // inside. The surface that it sees need not be closed: parts of the fragment that hang together elsewhere are pressed into
-// each other, cracks end in it, and what is near the spring's own triangle in its own fragment is no target. So a triangle
-// counts that the spring is behind, once it is the nearest, counts as one place with it, or its tet holds the spring. No
-// contact begins deeper than `shallow`. on: its place on that triangle; least: m, to the nearest; one_place: m, places so much
-// further off than the nearest may count as one with it.
+// each other, and cracks end in it. So a triangle counts that the spring is behind, once it is the nearest, counts as one place
+// with it, or its tet holds the spring. No contact begins deeper than `shallow`. on: its place on that triangle; least: m, to
+// the nearest; one_place: m, places so much further off than the nearest may count as one with it.
 template <class Apex>
 double outside_until(const Nearest& on, const Corners& x, const geom::Vec3& spring, double least,
                      double one_place, double shallow, const Apex& apex) {

@@ -173,7 +173,8 @@ bool EdgeLines::carries_at(int triangle, int corner, const geom::Vec3& spring, c
   };
   return std::any_of(contacts_, state_.contacts.end(), [&](const Contact& c) {
     const auto source = static_cast<int>(c.source);
-    return c.effective_penetration() > 0 && (carries(c, source, c.target) || carries(c, c.target, source));
+    return c.kind == Contact::edge && c.effective_penetration() > 0 &&
+           (carries(c, source, c.target) || carries(c, c.target, source));
   });
 }
 

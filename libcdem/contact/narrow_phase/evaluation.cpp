@@ -2,7 +2,6 @@
 
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
@@ -23,7 +22,7 @@ constexpr double reach_over_depth = 1.5;
 Evaluation::Evaluation(const Model& model, const State& state, const ContactWork& work, Contact::Kind kind,
                        ContactChunk& out)
     : model_(model), surface_(model.surface), state_(state), work_(work), kind_(kind), out_(out),
-      lines_(model, state, work), old_(state.contacts.end()), own_triangles_(own_triangles(work)) {}
+      lines_(model, state, work), old_(state.contacts.end()) {}
 
 void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   go_to(3 * row.source);
@@ -193,13 +192,13 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
     ContactCandidate& candidate = candidates[i];
     const auto target = static_cast<int>(candidate.target);
     const ContactTriangle& triangle = surface_.triangles[target];
-    const bool open = gives_way || (of_tets && open_at(model_, work_, row.source, target));
     if (!all && moved < candidate.recheck_distance) {
       recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
       for (int corner = 0; corner < 3; ++corner)
         if (candidate.springs >> corner & 1u)
           distances[corner].add_asleep(row.reach + candidate.recheck_distance - moved,
-                                       open ? candidate.recheck_distance - moved : infinity, triangle.height);
+                                       gives_way ? candidate.recheck_distance - moved : infinity,
+                                       triangle.height);
       continue;
     }
     const Facet& y = facet(target);
@@ -216,7 +215,7 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       }
       of_surface[corner].add(found, y.x, y.normal, triangle.height, gives, spring[corner],
                              [&] { return apex_of(model_, state_, triangle); });
-      if (open)
+      if (gives_way)
         awake_[corner].push_back(found);
     }
     // It sleeps no longer than it is too far off to count as one place with what a contact may begin at.
@@ -239,20 +238,16 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
     // Places nearer to each other than this may count as one.
     const double one_place = gives * d.tet + 4 * same_place * least;
     double until = 0;
-    // The two sides of a face that its own springs still hold do nothing to each other, whichever side is inside.
-    const bool inside = nearest[corner].inside(), held = held_by_face(row.source, d.target);
-    row.known_target[corner] = inside || held ? d.target : -1;
+    const bool inside = nearest[corner].inside();
+    row.known_target[corner] = inside ? d.target : -1;
     if (row.known_target[corner] < 0) // what is outside gets in through the surface, where it is closed
       until = std::min(least - 4 * one_place, d.asleep);
     else if (d.target == nearest[corner].target)
-      until =
-          std::min(0.5 * (d.second * (1 - 4 * same_place) - least - one_place), held ? d.asleep : infinity);
-    if (!inside || held)
+      until = 0.5 * (d.second * (1 - 4 * same_place) - least - one_place);
+    if (!inside)
       for (const Nearest& on : awake_[corner]) {
         if (until <= 0)
           break;
-        if (held_by_face(row.source, on.target))
-          continue;
         const Corners& x = facet(on.target).x;
         until = std::min(until, outside_until(on, x, spring[corner], least, one_place, row.reach, [&] {
                            return apex_of(model_, state_, surface_.triangles[on.target]);
@@ -290,7 +285,7 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
     const bool of_tets = of_several_tets(model_, work_, row.mover);
     row.recheck_distance = 0;
     for (int corner = 0; corner < 3; ++corner)
-      if (row.known_target[corner] >= 0 && !held_by_face(row.source, row.known_target[corner])) {
+      if (row.known_target[corner] >= 0) {
         nearest[corner] = nearest_on(row.known_target[corner], spring[corner], gives);
         // It has come out through the nearest triangle, and may stand in another tet of the fragment.
         looks = looks || (of_tets && !nearest[corner].inside());
@@ -307,10 +302,9 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   const auto sleep = [&](int corner) { sleeps = std::min(sleeps, row.known_until[corner]); };
   for (int corner = 0; corner < 3; ++corner) {
     const Nearest& found = nearest[corner];
-    const int target = row.known_target[corner];
-    if (target < 0 || held_by_face(row.source, target)) {
+    if (row.known_target[corner] < 0) {
       sleep(corner);
-      if (!found.inside() || held_by_face(row.source, found.target))
+      if (!found.inside())
         continue;
     } else if (!found.inside()) {
       sleeps = 0;
@@ -353,15 +347,6 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   return std::sqrt(deepest2);
 }
 
-bool Evaluation::held_by_face(int source, int target) const {
-  const ContactTriangle& from = surface_.triangles[source];
-  if (target < 0 || from.mate != target)
-    return false;
-  const FaceStateBatch& faces = state_.faces[from.face / lanes];
-  const int lane = from.face % lanes;
-  return !handed_over(faces, lane) && !leaves(faces, lane);
-}
-
 // Where two edges cross near a node of one of them, the springs of the node are in the other block because the edge is,
 // and would push along the face that happens to be nearest.
 bool Evaluation::edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
@@ -394,9 +379,6 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
                              const Nearest& nearest, double begins) {
   const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
   const double depth = std::sqrt(nearest.distance2);
-  // The two sides of a face that has broken and not yet parted are held by its own springs.
-  if (held_by_face(source, nearest.target))
-    return false;
   Contact c = spring_contact(source, corner, fragment);
   c.target = nearest.target;
   const Contact* const old = before(c);

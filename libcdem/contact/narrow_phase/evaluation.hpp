@@ -19,9 +19,6 @@ public:
 
   void springs(ContactRow&, ContactCandidate*); // candidates: of all rows
   void edges(ContactRow&, ContactCandidate*);
-  // Semi-springs of two movers that are single tetrahedra, on each other. Returns how far the two may move, m, before
-  // anything changes; 0: they touch, or may do so at once. Their contacts stand in no order.
-  double tets(int mover_a, int mover_b);
 
 private:
   // Contact law of two blocks. between: their bodies, or the blocks themselves where some have a law of their own.
@@ -37,8 +34,6 @@ private:
   double from(const ContactRow&) const;
   double moved_in_step(const ContactRow&) const; // m
   bool moves_as_one(const ContactEdge&) const;
-  // The two are the sides of a broken face that its own springs still hold.
-  bool held_by_face(int source, int target) const;
   // An edge through this corner of the source, into the target, carries there in a contact with the target's block.
   bool edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
                        int target) const;
@@ -55,9 +50,6 @@ private:
   // All of them stand outside a fragment that is a single tet, or outside the other block of a rigid pair, and so they
   // touch nothing until they have moved.
   bool stand_outside(ContactRow&, const Springs&);
-  // heights: m, over the planes of the other's triangles, of the source's nodes.
-  double springs_of_tet(int source_mover, int mover, const std::array<std::array<double, 4>, 4>& heights);
-  double spring_in_tet(int mover, int source, int corner, int known);
   // The nearest places of one fragment to them, of all targets that do not sleep.
   void find_nearest(ContactRow&, ContactCandidate*, bool all, const Springs&, std::array<Nearest, 3>&);
   Nearest nearest_on(int target, const geom::Vec3& spring, double gives);
@@ -93,9 +85,8 @@ private:
   std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
   Law law_;
   std::array<std::vector<Nearest>, 3>
-      awake_; // of a row's semi-springs: their places on the targets that were looked at
-  std::array<int, 2> own_triangles_{}; // of this rank, of single tetrahedra: [first, last)
-  std::array<Facet, 4> facets_;        // by the last two bits of a triangle's number
+      awake_;                   // of a row's semi-springs: their places on the targets that were looked at
+  std::array<Facet, 4> facets_; // by the last two bits of a triangle's number
   std::array<int, 4> facet_of_{-1, -1, -1, -1};
 };
 

@@ -82,7 +82,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   force.stiffness = law.kn * (1 + law.damping_ratio) + law.ks;
   out_.contacts.push_back(c);
   out_.forces.push_back(force);
-  // Not what was found so deep: between the fragments of a broken body that still hang together by a corner.
+  // Not what was found so deep.
   ContactSums& sums = out_.sums;
   const double pressed = c.effective_penetration(), part = pressed / depth_limit(work_, from, to);
   sums.depth = std::max(sums.depth, pressed);

@@ -1,9 +1,7 @@
 #include "libcdem/contact/narrow_phase/row_shares.hpp"
 
-#include "libcdem/contact/broad_phase/movers.hpp"
-#include "libcdem/contact/broad_phase/tets_beyond.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
-#include "libcdem/contact/data/tet_pairs.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
@@ -25,28 +23,6 @@ public:
     for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t)
       if (work_.active[t])
         add_triangle(t);
-  }
-  // Adds the nodes of the block's movers for which `read` holds, and of the edges on them: an edge may separate two
-  // movers.
-  template <class Read>
-  void add_movers(int block, const Read& read) {
-    const auto reads = [&](int t) { return read(work_.movers.of_triangle[t]); };
-    for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t) {
-      if (work_.active[t] && reads(t))
-        add_triangle(t);
-      for (int e = work_.edge_begin[t]; e < work_.edge_begin[t + 1]; ++e)
-        if (const auto& sides = work_.edges[e].triangles; reads(sides[0]) || reads(sides[1])) {
-          add_triangle(sides[0]);
-          add_triangle(sides[1]);
-        }
-    }
-    // Between the tets of a fragment the way to a semi-spring is followed (tets_beyond.hpp).
-    const std::vector<char> at_surface = tets_at_surface(model_, work_, block);
-    for (std::size_t i = 0; i < at_surface.size(); ++i) {
-      const geom::Tet& tet = model_.tets[static_cast<std::size_t>(model_.blocks[block].tet_begin) + i];
-      if (at_surface[i] && read(work_.movers.of_fragment[work_.fragment_of_node[tet[0]]]))
-        nodes_.insert(nodes_.end(), tet.begin(), tet.end());
-    }
   }
   std::vector<std::int32_t> take() { return std::move(nodes_); }
 
@@ -77,18 +53,11 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
   if (!work.shared)
     return;
   const auto blocks = static_cast<int>(model.blocks.size());
-  std::vector<char> read(model.blocks.size(), 0), mover_read(work.movers.count(), 0);
+  std::vector<char> read(model.blocks.size(), 0);
   for (const std::vector<ContactRow>& rows : work.rows)
     for (const ContactRow& row : rows)
       for (const int mover : {row.source_mover, row.mover})
-        read[work.movers.block[mover]] = mover_read[mover] = 1;
-  if (work.tet_pairs)
-    for (std::size_t p = 0; p < work.tet_pairs->count(); ++p)
-      if (work.tet_pairs->until[p] < std::numeric_limits<float>::infinity())
-        mover_read[work.tet_pairs->a[p]] = mover_read[work.tet_pairs->b[p]] = 1;
-  for (int m = blocks; m < work.movers.count(); ++m)
-    if (rank_of_fragment(work, m - blocks) == work.shared->part().rank)
-      mover_read[m] = 1;
+        read[work.movers.block[mover]] = 1;
   NodesRead nodes(model, work);
   std::vector<int> rigid;
   for (int b = 0; b < blocks; ++b) {
@@ -100,10 +69,8 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
         rigid.push_back(block.rigid);
       continue;
     }
-    if (work.restitution)
+    if (work.restitution || touches_itself(model, work, b)) // each rank finds all its pairs of tetrahedra
       nodes.add_block(b);
-    else if (work.broken[b])
-      nodes.add_movers(b, [&](int mover) { return mover_read[mover] != 0; });
     else if (read[b])
       nodes.add_surface(b);
   }

@@ -83,16 +83,13 @@ void wake_all(RowsAsleep& rows) {
 
 } // namespace
 
-void find_awake(const double* travelled, const float* until, const int* mover_a, const int* mover_b,
-                std::size_t count, std::uint64_t* awake) {
-  simd::best<awake_kernel>(travelled, until, mover_a, mover_b, static_cast<std::int64_t>(count), awake);
-}
-
 void find_awake(const Model& model, const State& state, ContactWork& work) {
   for (RowsAsleep& rows : work.asleep) {
     rows.awake.resize((rows.mover.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk);
-    find_awake(work.travelled.data(), rows.recheck_distance.data(), rows.source_mover.data(),
-               rows.mover.data(), rows.mover.size(), rows.awake.data());
+    // Those of which the two movers have travelled by the recheck distance together: a bit each.
+    simd::best<awake_kernel>(work.travelled.data(), rows.recheck_distance.data(), rows.source_mover.data(),
+                             rows.mover.data(), static_cast<std::int64_t>(rows.mover.size()),
+                             rows.awake.data());
   }
   for (std::size_t p = 0; p < work.rigid_pairs.size(); ++p)
     if (work.looks_at_all || path_of(work, work.rigid_pairs[p]) >= work.rigid_pairs[p].look_at)

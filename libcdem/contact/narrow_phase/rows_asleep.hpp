@@ -9,11 +9,6 @@ namespace cdem {
 // Writes RowsAsleep::awake, and the motion of the rigid pairs whose rows are awake.
 void find_awake(const Model&, const State&, ContactWork&);
 
-// Marks the rows, or pairs, of which the two movers have travelled by `until` together: a bit each. All arrays but
-// `travelled` (m, per mover) have `count` entries.
-void find_awake(const double* travelled, const float* until, const int* mover_a, const int* mover_b,
-                std::size_t count, std::uint64_t* awake);
-
 // The movers of a row's targets. visit: takes the number of one.
 template <class Visit>
 void each_mover(const ContactWork& work, const ContactRow& row, const Visit& visit) {

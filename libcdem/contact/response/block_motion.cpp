@@ -38,6 +38,8 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
   work.block_forces.assign(model.blocks.size(), 0.0);
   std::vector<ExactSum> on_rigid(model.rigid.size());
   for (const Contact& c : state.contacts) {
+    if (c.kind == Contact::tets) // within a block
+      continue;
     const double force = law_of(model, c).kn * c.effective_penetration();
     const auto [a, b] = blocks_of(model, c);
     for (const int block : {a, b})

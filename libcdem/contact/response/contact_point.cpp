@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/response/tet_potential.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libgeom/core/portable.hpp"
 
@@ -47,7 +48,84 @@ void set_normal_weight(ContactArms& arms, int node, double weight) {
 
 } // namespace
 
+std::array<double, 4> within_tet(const Model& model, const State& state, const geom::Tet& nodes,
+                                 const geom::Vec3& place) {
+  std::array<double, 4> weights = in_tet(model, state, nodes, place);
+  double sum = 0;
+  for (double& weight : weights)
+    sum += weight = std::max(0.0, weight);
+  for (double& weight : weights)
+    weight /= sum;
+  return weights;
+}
+
+TetSize tet_size(const Model& model, int tet) {
+  const geom::Tet& n = model.tets[tet];
+  const auto side = [&](int from, int to) -> geom::Vec3 {
+    return model.node_position[n[to]] - model.node_position[n[from]];
+  };
+  TetSize size;
+  for (const auto& plane : planes_of_tet)
+    size.area += side(plane[0], plane[1]).cross(side(plane[0], plane[2])).norm() / 8;
+  size.height = 0.5 * side(0, 1).dot(side(0, 2).cross(side(0, 3))) / size.area;
+  return size;
+}
+
+TetPairLaw tet_pair_law(const Model& model, const Joint& joint, double tan_friction, int block,
+                        const TetSize& a, const TetSize& b) {
+  const double modulus = model.bodies[model.blocks[block].body].material.youngs_modulus;
+  const ContactStiffness face = contact_stiffness(joint, (a.height + b.height) / modulus);
+  const double area = 0.5 * (a.area + b.area), e2 = joint.restitution * joint.restitution;
+  return {face.normal * (1 + e2) * area / 3, {0, face.shear * area / 3, tan_friction, (1 - e2) / (1 + e2)}};
+}
+
+namespace {
+
+ContactArms tet_arms(const Model& model, const State& state, const Contact& c) {
+  std::array<Node, 8> place;
+  TetPairPress batch{};
+  ContactArms arms;
+  for (int k = 0; k < 8; ++k) {
+    const int node = model.tets[k < 4 ? static_cast<int>(c.source) : c.target][k % 4];
+    (k < 4 ? arms.source : arms.target)[k % 4] = node;
+    const geom::Vec3 x = place_of(model, state, node);
+    place[k] = {x.x(), x.y(), x.z(), 0};
+    std::fill_n(batch.of.node[k], lanes, k);
+  }
+  std::fill_n(batch.phi0, lanes, c.reference_penetration);
+  std::fill_n(batch.stiffness, lanes, 1.0);
+  press_pairs(place.data(), &batch, 1);
+  double sum = 0; // N
+  const auto force = [&](int k) {
+    return geom::Vec3(batch.force[k][0][0], batch.force[k][1][0], batch.force[k][2][0]);
+  };
+  for (int k = 0; k < 4; ++k)
+    sum += force(k).dot(c.normal);
+  for (int k = 0; k < 4; ++k) { // those that do not press: their middles
+    arms.on_source[k] = sum > 0 ? force(k).dot(c.normal) / sum : 0.25;
+    arms.normal[k] = sum > 0 ? -force(4 + k).dot(c.normal) / sum : 0.25;
+  }
+  geom::Vec3 between = geom::Vec3::Zero(); // m, what presses on the two
+  for (int k = 0; k < 8; ++k)
+    between +=
+        0.5 * (k < 4 ? arms.on_source : arms.normal)[k % 4] * geom::Vec3(place[k].x, place[k].y, place[k].z);
+  arms.on_source = within_tet(model, state, model.tets[static_cast<int>(c.source)], between);
+  arms.shear = within_tet(model, state, model.tets[c.target], between);
+  return arms;
+}
+
+} // namespace
+
 ContactLaw law_of(const Model& model, const Contact& c) {
+  if (c.kind == Contact::tets) {
+    const int a = static_cast<int>(c.source), block = model.tet_block[a];
+    const Joint& joint = *contact_joint(model, block, block);
+    ContactLaw law = tet_pair_law(model, joint, geom::portable::tan(joint.friction_angle), block,
+                                  tet_size(model, a), tet_size(model, c.target))
+                         .law;
+    law.kn = c.stiffness;
+    return law;
+  }
   const ContactSurface& s = model.surface;
   const auto [source, target] = triangles_of(c);
   const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
@@ -80,6 +158,8 @@ ContactLaw edge_law(const Model& model, const Joint& joint, double tan_friction,
 }
 
 std::pair<int, int> blocks_of(const Model& model, const Contact& c) {
+  if (c.kind == Contact::tets)
+    return {model.tet_block[c.source], model.tet_block[c.target]};
   const auto [source, target] = triangles_of(c);
   return {model.surface.triangles[source].block, model.surface.triangles[target].block};
 }
@@ -94,9 +174,9 @@ ContactArms spring_arms(const Model& model, const State& state, const ContactTri
                         const ContactTriangle& to, const geom::Vec3& nearest) {
   ContactArms arms;
   const geom::Vec3 w = spring_weights(corner);
-  arms.source = from.nodes;
+  arms.source = {from.nodes[0], from.nodes[1], from.nodes[2], from.nodes[0]};
   arms.target = model.tets[to.tet];
-  arms.on_source = {w[0], w[1], w[2]};
+  arms.on_source = {w[0], w[1], w[2], 0};
   for (int i = 0; i < 3; ++i)
     set_normal_weight(arms, to.nodes[i], nearest[i]);
   arms.shear = in_tet(model, state, arms.target, weighted(corners_of(model, state, from.nodes), w));
@@ -106,8 +186,8 @@ ContactArms spring_arms(const Model& model, const State& state, const ContactTri
 ContactArms edge_arms(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
                       const geom::PlacesOnSegments& at) {
   ContactArms arms;
-  arms.source = {e.nodes[0], e.nodes[1], e.nodes[0]};
-  arms.on_source = {1 - at.s, at.s, 0};
+  arms.source = {e.nodes[0], e.nodes[1], e.nodes[0], e.nodes[0]};
+  arms.on_source = {1 - at.s, at.s, 0, 0};
   arms.target = model.tets[model.surface.triangles[f.triangles[0]].tet];
   set_normal_weight(arms, f.nodes[0], 1 - at.t);
   set_normal_weight(arms, f.nodes[1], at.t);
@@ -119,6 +199,8 @@ ContactArms edge_arms(const Model& model, const State& state, const ContactEdge&
 
 ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
   const ContactSurface& s = model.surface;
+  if (c.kind == Contact::tets)
+    return tet_arms(model, state, c);
   if (c.kind == Contact::edge) {
     const ContactEdge e = edge_between(s, c.source / 3, c.source % 3, c.fragment, 0),
                       f = edge_between(s, c.target / 3, c.target % 3, c.beside, 0);
@@ -133,8 +215,9 @@ ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
 
 geom::Vec3 velocity_past(const State& state, const ContactArms& arms) {
   geom::Vec3 v = geom::Vec3::Zero();
-  for (int i = 0; i < 3; ++i)
-    v += arms.on_source[i] * velocity_of(state, arms.source[i]);
+  for (int i = 0; i < 4; ++i)
+    if (arms.on_source[i] != 0)
+      v += arms.on_source[i] * velocity_of(state, arms.source[i]);
   for (int i = 0; i < 4; ++i)
     v -= arms.shear[i] * velocity_of(state, arms.target[i]);
   return v;

@@ -17,6 +17,22 @@ ContactLaw spring_law(const Model&, const Joint&, double tan_friction, const Con
 ContactLaw edge_law(const Model&, const Joint&, double tan_friction, const std::array<int, 2>& from,
                     const std::array<int, 2>& to, const std::array<double, 2>& parts = {1, 1});
 
+// Means of a tetrahedron's faces and heights, undeformed. Two faces that lie on each other as they did in the mesh, pressed by their
+// middles alone, are 4 times as stiff as the tetrahedra behind them, a corner in a face a sixth; in shear a pair is a third as stiff.
+struct TetSize {
+  double area = 0, height = 0; // m2, m
+};
+TetSize tet_size(const Model&, int tet);
+struct TetPairLaw {
+  double corner = 0; // N/m, of the potential (tet_potential.hpp)
+  ContactLaw law;    // kn follows from force and energy of the moment
+};
+TetPairLaw tet_pair_law(const Model&, const Joint&, double tan_friction, int block, const TetSize& a,
+                        const TetSize& b);
+
+// Weights of a tetrahedron's corners that make up a place (m) within it; of one outside, those that are above 0 alone.
+std::array<double, 4> within_tet(const Model&, const State&, const geom::Tet&, const geom::Vec3& place);
+
 // The two blocks of a contact, its source's first.
 std::pair<int, int> blocks_of(const Model&, const Contact&);
 
