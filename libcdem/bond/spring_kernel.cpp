@@ -139,8 +139,9 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   if (springs.breaking) {
     const Oct strength =
         shear_strength<Oct>(unbreakable_part * (area * stiffness.w), unbreakable_part * tan, normal_force);
-    leaves = ~contact & ((normal_force >= unbreakable_part * (area * stiffness.z)) | (strength <= Oct{}) |
-                         (shear2 >= strength * strength));
+    leaves =
+        ~contact & (simd::at_most<Oct>(unbreakable_part * (area * stiffness.z), normal_force) |
+                    simd::at_most<Oct>(strength, Oct{}) | simd::at_most<Oct>(strength * strength, shear2));
   }
   left = bits(leaves);
   const Oct none{}, one = none + 1.0;
@@ -149,7 +150,8 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   if (simd::any(contact)) {
     held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2));
     held = {contact ? held.normal : one, contact ? held.shear : one};
-    if (simd::any((held.shear < one) & ~leaves)) {
+    const Mask slips = simd::below<Oct>(held.shear, one);
+    if (simd::any(slips & ~leaves)) {
       const Triples slip = (one - held.shear) * stretch.shear;
       const Oct lost = lost_by_slip<Oct>(ks, n, stretch, held, before, slip);
       for (int lane = 0; lane < lanes; ++lane)
@@ -158,12 +160,12 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
       store_triples(springs.offset, offset + slip);
     }
     if (springs.viscous) {
-      const Mask here = contact & ~leaves, press = here & (normal_force < none);
+      const Mask here = contact & ~leaves, press = here & simd::below<Oct>(normal_force, none);
       const Triples rate = turned_back(rotation, jumps_of(all, batch, springs.velocity)),
                     viscous_before = load_triples(springs.viscous);
       viscous = viscous_of_contact<Oct>(none + springs.contact_damping, kn, ks, n, rate, none - normal_force,
                                         friction_left<Oct>(ks, tan, normal_force, root(length2)), press,
-                                        press & ~(held.shear < one));
+                                        press & ~slips);
       const Oct lost = (0.5 * springs.damping_step) * dot(viscous_before + viscous, rate);
       for (int lane = 0; lane < lanes; ++lane)
         if (here[lane] != 0)

@@ -96,8 +96,9 @@ struct Plastically {
     for (int i = 0; i < count; ++i) {
       const PlasticBound& b = bounds[i];
       const Oct shear = b.strength - b.slope * p, tension = b.tensile - p;
-      const auto beyond = (shear <= zero) | (b.reach * j2 >= shear * shear) | (tension <= zero) |
-                          ((4 * third) * j2 >= tension * tension);
+      const auto beyond = simd::at_most(shear, zero) | simd::at_most<Oct>(shear * shear, b.reach * j2) |
+                          simd::at_most(tension, zero) |
+                          simd::at_most<Oct>(tension * tension, (4 * third) * j2);
       for (int lane = 0; lane < lanes; ++lane)
         near |= beyond[lane] != 0 ? 1u << lane : 0u;
     }

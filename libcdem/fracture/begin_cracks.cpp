@@ -55,8 +55,8 @@ CDEM_INLINE void beyond_kernel(const SlotsOfFaces* eights, std::size_t count, co
       component /= simd::load(at.left);
     unsigned bits = 0;
     for (std::size_t k = 0; k < bound_count; ++k)
-      if (simd::any(bounds[k].coarsely_beyond(s) > Oct{}))
-        bits |= simd::bits_of(bounds[k].beyond(s) > Oct{});
+      if (simd::any(simd::below<Oct>(Oct{}, bounds[k].coarsely_beyond(s))))
+        bits |= simd::bits_of(simd::below<Oct>(Oct{}, bounds[k].beyond(s)));
     beyond[i] = static_cast<std::uint8_t>(bits);
   }
 }

@@ -34,10 +34,10 @@ CDEM_INLINE bool beyond_any(const simd::Oct (&s)[6], const UtilisationBound* bou
   bool any = false;
   for (int i = 0; i < count; ++i) {
     const simd::Oct coarse = bounds[i].coarsely_beyond(s);
-    if (!simd::any(coarse > simd::Oct{}))
+    if (!simd::any(simd::below(simd::Oct{}, coarse)))
       continue;
     const simd::Oct fine = bounds[i].beyond(s);
-    any = any || simd::any(fine > simd::Oct{});
+    any = any || simd::any(simd::below(simd::Oct{}, fine));
   }
   return any;
 }
@@ -73,7 +73,7 @@ CDEM_INLINE void near_kernel(const StressBatch* stress, const StressBatch* befor
       const simd::Oct part = s[c] * s[c] + of_rise * d * d;
       sum += (c < 3 ? 2.0 : 4.0) * part;
     }
-    if (!simd::any(sum > most)) {
+    if (!simd::any(simd::below(most, sum))) {
       bits[i] = 0;
       continue;
     }

@@ -121,7 +121,7 @@ inline SofteningLaw softening_law(const Joint& joint, double kn, double ks,
 template <class T>
 CDEM_INLINE T softening_curve(const simd::MaskOf<T>& exponential, const T& xi) {
   const T none{}, one = none + 1.0;
-  const auto within = xi < one;
+  const auto within = simd::below(xi, one);
   const T x = within ? xi : one;
   T left = one - x;
   if (simd::any(exponential)) {
@@ -157,7 +157,7 @@ CDEM_INLINE StrengthLeft<T> strength_left(const SofteningLawOf<T>& law, const T&
   const T slid = shear - held;
   const T xi_n = (none < open ? open : none) * beyond / law.opening;
   const T xi_s = (none < slid ? slid : none) * beyond / law.slip;
-  return {softening_curve<T>(law.exponential, root(xi_n * xi_n + xi_s * xi_s)), xi_n >= xi_s};
+  return {softening_curve<T>(law.exponential, root(xi_n * xi_n + xi_s * xi_s)), simd::at_most(xi_s, xi_n)};
 }
 
 template <class T>
@@ -171,7 +171,7 @@ template <class T>
 CDEM_INLINE DamageDrive<T> damage_drive(const SofteningLawOf<T>& law, const T& open, const T& shear) {
   const T none{}, one = none + 1.0;
   const T r = strength_ratio<T>(law, open, shear);
-  const auto beyond_strength = r > one;
+  const auto beyond_strength = simd::below(one, r);
   if (!simd::any(beyond_strength))
     return {};
   const T at = beyond_strength ? r : one;
@@ -206,7 +206,7 @@ CDEM_INLINE SofteningResponse<T> softening_response(const SofteningLawOf<T>& law
   if (simd::any(grows)) {
     const DamageDrive<T> drive = damage_drive<T>(law, open, root(dot(shear, shear)));
     r.damage = grows ? (damage < drive.damage ? drive.damage : damage) : damage;
-    r.separated = grows & (drive.damage >= one);
+    r.separated = grows & simd::at_most(one, drive.damage);
     r.opens = drive.opens;
   }
   const SpringResponseOf<T> contact =
@@ -241,7 +241,7 @@ CDEM_INLINE T shear_share(const SofteningLawOf<T>& law, const Triple<T>& normal,
   const T open = dot(stretch, normal);
   const Triple<T> shear = stretch - open * normal;
   const T opening = law.kn * open * open, slip = law.ks * dot(shear, shear), both = opening + slip;
-  const auto some = both > none;
+  const auto some = simd::below(none, both);
   const T share = some ? slip / (some ? both : one) : none;
   return open > none ? share : one;
 }

@@ -31,7 +31,8 @@ CDEM_INLINE HeldByContact<T> held_by_contact(const T& kn, const T& ks, const T& 
                                              const T& shear_length) {
   const T none = T{}, all = none + 1.0;
   const T held = held_by_friction<T>(ks * shear_length, friction_limit<T>(-(kn * open), tan_friction));
-  return {open > none ? none : all, open > none ? none : held};
+  const auto apart = simd::below(none, open);
+  return {apart ? none : all, apart ? none : held};
 }
 
 // How far a spring is stretched along its normal and across it, m.

@@ -6,6 +6,7 @@
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/parallel/node.hpp"
 
+#include <cstdint>
 #include <cstring>
 
 namespace cdem {
@@ -92,6 +93,44 @@ CDEM_INLINE void store_wide(double* p, const V& v) {
   std::memcpy(p, &v, sizeof v);
 }
 
+// Comparisons whose result is kept, combined or asked for are written with `below`, `at_most` and `equal`; one by which something is
+// chosen at once may be written as it is. GCC compares eight numbers one by one where it keeps the result: so that of eight is
+// made from the bits of their difference, which has the right sign unless one of the two is infinite or no number. Of one number
+// these are comparisons.
+CDEM_INLINE Mask bits_of_difference(const Oct& a, const Oct& b) {
+  const Oct difference = a - b;
+  Mask bits;
+  std::memcpy(&bits, &difference, sizeof bits);
+  return bits;
+}
+CDEM_INLINE Mask where_not_zero(const Mask& bits) {
+  return (bits | -bits) >> 63;
+}
+
+template <class V>
+CDEM_INLINE MaskOf<V> below(const V& a, const V& b) {
+  if constexpr (width<V> != lanes) {
+    return a < b;
+  } else {
+    const Mask bits = bits_of_difference(b, a);
+    return where_not_zero(bits) & ~(bits >> 63);
+  }
+}
+template <class V>
+CDEM_INLINE MaskOf<V> at_most(const V& a, const V& b) {
+  if constexpr (width<V> != lanes)
+    return a <= b;
+  else
+    return ~below(b, a);
+}
+template <class V>
+CDEM_INLINE MaskOf<V> equal(const V& a, const V& b) {
+  if constexpr (width<V> != lanes)
+    return a == b;
+  else
+    return ~where_not_zero(bits_of_difference(a, b) << 1);
+}
+
 // The first lanes of eight, or those from the fifth on.
 template <class V, int first>
 CDEM_INLINE V part_of(const Oct& v) {
@@ -116,14 +155,21 @@ CDEM_INLINE bool any(bool one) {
   return one;
 }
 
+// A byte for each lane: few instructions on all processors.
 CDEM_INLINE bool any(const MaskOf<Quad>& four) {
-  return (four[0] | four[1] | four[2] | four[3]) != 0;
+  using Bytes = signed char __attribute__((vector_size(4)));
+  const Bytes bytes = __builtin_convertvector(four, Bytes);
+  std::uint32_t all = 0;
+  std::memcpy(&all, &bytes, sizeof all);
+  return all != 0;
 }
 
 CDEM_INLINE bool any(const Mask& mask) {
-  const MaskOf<Quad> four =
-      __builtin_shufflevector(mask, mask, 0, 1, 2, 3) | __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
-  return any(four);
+  using Bytes = signed char __attribute__((vector_size(8)));
+  const Bytes bytes = __builtin_convertvector(mask, Bytes);
+  std::uint64_t all = 0;
+  std::memcpy(&all, &bytes, sizeof all);
+  return all != 0;
 }
 
 // Whether one of eight numbers is below zero: by their signs, which need no comparison.
