@@ -228,6 +228,7 @@ void find_near(const ContactWork& work, TetContacts& of) {
   of.steps_then = of.steps;
   of.near.clear();
   of.place_of_near.clear();
+  of.tets_of_near.clear();
   constexpr double twice = 2; // the middle and the corners of a tetrahedron go no further than its path, each
   for (std::size_t p = 0; p < of.pairs.count(); ++p) {
     const int a = of.pairs.a[p], b = of.pairs.b[p];
@@ -235,6 +236,7 @@ void find_near(const ContactWork& work, TetContacts& of) {
         (!work.looks_at_all && left_by_paths(of, p) > 2 * twice * (margin[a] + margin[b])))
       continue;
     of.place_of_near.push_back(static_cast<int>(p));
+    of.tets_of_near.emplace_back(of.tets[a].tet, of.tets[b].tet);
     of.near.a.push_back(a);
     of.near.b.push_back(b);
     for (int i = 0; i < 4; ++i)
@@ -315,7 +317,7 @@ void find_tet_pairs(const Model& model, const State& state, ContactWork& work, b
     anew = true;
   }
   TetContacts& of = *work.tet_contacts;
-  if (anew || relaxes(state, work)) // a pair that has just parted has a contact that must end
+  if (anew || forgets_overlaps(state, work)) // a pair that has just parted has a contact that must end
     wake_contacts(state, of);
   if (any_beyond(of.paths.path, of.limit))
     find_near(work, of);

@@ -9,9 +9,11 @@ namespace cdem {
 // Whether contact within the block goes by pairs of its tetrahedra: faces of it have broken.
 bool touches_itself(const Model&, const ContactWork&, int block);
 
-// In this step overlaps without a force that have grown smaller count as they are now. Not in steps that are looked over.
-inline bool relaxes(const State& state, const ContactWork& work) {
-  return work.step > 0 && state.step % 20 == 10;
+// In this step overlaps without a force that have grown smaller count as they are now, and pairs that have parted are forgotten. Not
+// in steps that are looked over.
+inline bool forgets_overlaps(const State& state, const ContactWork& work) {
+  constexpr std::int64_t every = 20, first = 10;
+  return work.step > 0 && state.step % every == first;
 }
 
 // Writes ContactWork::tet_contacts, null where no block touches itself with broken faces. told: contact has just been told of

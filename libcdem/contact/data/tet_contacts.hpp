@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace cdem {
@@ -43,8 +44,9 @@ struct TetContacts {
 
   // Pairs that may wake before the path of any tetrahedron reaches its `limit`.
   WatchedPairs near;
-  std::vector<int> place_of_near;       // of each in `pairs`
-  std::vector<double> limit, path_then; // m; what the paths were when they were found
+  std::vector<int> place_of_near;                // of each in `pairs`
+  std::vector<std::pair<int, int>> tets_of_near; // of the model
+  std::vector<double> limit, path_then;          // m; what the paths were when they were found
   std::int64_t steps = 0, steps_then = 0;
   std::vector<std::uint64_t> awake; // a bit per near pair
 

@@ -1,10 +1,11 @@
 #include "libcdem/contact/narrow_phase/press_tets.hpp"
 
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
-#include "libcdem/contact/narrow_phase/rows_asleep.hpp"
+#include "libcdem/contact/narrow_phase/push_directions.hpp"
+#include "libcdem/contact/narrow_phase/tet_question.hpp"
 #include "libcdem/contact/response/contact_law.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
-#include "libcdem/contact/response/tet_potential.hpp"
+#include "libcdem/contact/response/tet_push.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/portable.hpp"
@@ -12,85 +13,21 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 namespace cdem {
 namespace {
 
 constexpr std::int64_t pairs_per_chunk = 32 * lanes;
-// Of what parts an overlap from its phi0 or from its end: strain changes the heights of tetrahedra.
+// Part of the way between an overlap and its phi0 for which the pair sleeps: strain changes the heights of tetrahedra.
 constexpr double trusted = 0.9;
 
-struct Asked {
-  std::size_t near = 0;            // of TetContacts::near
-  const Contact* before = nullptr; // null: there was none
-};
-
-// What stands in State of pairs that sleep stays, and is set between the others.
-struct Question {
-  std::vector<const Contact*> ended; // their pairs may not touch any more
-  std::vector<Asked> asked;
-  std::vector<std::pair<std::size_t, const Contact*>> asleep; // before which of `asked`
-};
-
-// allowed: m, that the two may go past each other before they are looked at again.
+// allowed: m, that the two may go past each other before they are looked at again; 0: they stay awake.
 void fall_asleep(TetContacts& of, std::size_t near, double allowed) {
   const float may_go = rounded_down(allowed);
-  const auto p = static_cast<std::size_t>(of.place_of_near[near]);
+  if (!(may_go > 0) && !(of.near.allowed[near] > 0))
+    return;
   of.near.set(near, of.paths, may_go);
-  of.pairs.set(p, of.paths, may_go);
-}
-
-// Whether an old contact goes on: its pair may touch. One too far apart to be a pair is forgotten as in finish_pair.
-bool goes_on(const TetContacts& of, const Contact& c, bool forgets) {
-  const int p = of.pair_of(static_cast<int>(c.source), c.target);
-  return p >= 0 ? of.may_touch[p] != 0 : !forgets && c.reference_penetration > 0;
-}
-
-Question question_of(const State& state, ContactWork& work) {
-  TetContacts& of = *work.tet_contacts;
-  find_awake(of.paths, of.near, of.awake);
-  if (work.looks_at_all)
-    for (std::size_t i = 0; i < of.near.count(); ++i)
-      of.awake[i / contact_rows_per_chunk] |= std::uint64_t{1} << (i % contact_rows_per_chunk);
-  Question question;
-  auto old = std::partition_point(state.contacts.begin(), state.contacts.end(),
-                                  [](const Contact& c) { return c.kind != Contact::tets; });
-  const auto tets_of = [](const Contact& c) { return std::pair<int, int>(c.source, c.target); };
-  const bool forgets = relaxes(state, work);
-  const auto keep_before = [&](const std::pair<int, int>& pair) {
-    for (; old != state.contacts.end() && tets_of(*old) < pair; ++old)
-      if ((of.fresh || forgets) && !goes_on(of, *old, forgets))
-        question.ended.push_back(&*old);
-      else
-        question.asleep.emplace_back(question.asked.size(), &*old);
-  };
-  for (std::size_t word = 0; word < of.awake.size(); ++word)
-    for (std::uint64_t bits = of.awake[word]; bits != 0; bits &= bits - 1) {
-      const std::size_t near =
-          word * contact_rows_per_chunk + static_cast<std::size_t>(__builtin_ctzll(bits));
-      const std::pair<int, int> tets(of.tets[of.near.a[near]].tet, of.tets[of.near.b[near]].tet);
-      keep_before(tets);
-      Asked asked{near};
-      if (old != state.contacts.end() && tets_of(*old) == tets)
-        asked.before = &*old++;
-      question.asked.push_back(asked);
-    }
-  keep_before({std::numeric_limits<int>::max(), 0});
-  return question;
-}
-
-// rad/s, of a tetrahedron.
-geom::Vec3 spin_of(const Model& model, const State& state, const geom::Tet& nodes) {
-  const auto side = [&](int k) -> geom::Vec3 {
-    return place_of(model, state, nodes[k]) - place_of(model, state, nodes[0]);
-  };
-  const auto faster = [&](int k) -> geom::Vec3 {
-    return velocity_of(state, nodes[k]) - velocity_of(state, nodes[0]);
-  };
-  const geom::Vec3 a = side(1), b = side(2), c = side(3);
-  return 0.5 / a.dot(b.cross(c)) *
-         (b.cross(c).cross(faster(1)) + c.cross(a).cross(faster(2)) + a.cross(b).cross(faster(3)));
+  of.pairs.set(static_cast<std::size_t>(of.place_of_near[near]), of.paths, may_go);
 }
 
 // m, of the first tetrahedron past the second in a step, by their middles.
@@ -105,7 +42,7 @@ geom::Vec3 slid_by_middles(const Model& model, const State& state, double step, 
 // Goes through some pairs in order.
 class Pressing {
 public:
-  Pressing(const Model& model, const State& state, const ContactWork& work, const Question& question,
+  Pressing(const Model& model, const State& state, const ContactWork& work, const TetQuestion& question,
            std::size_t begin, std::size_t end)
       : model_(model), state_(state), work_(work), of_(*work.tet_contacts), question_(question),
         begin_(begin), end_(end), asked_(question.asked.data() + begin) {}
@@ -128,7 +65,7 @@ public:
         others.push_back(i);
     look(others, bound_deepest);
     // What is known is that they overlap by no more than this: often that is enough.
-    const bool all_exactly = relaxes(state_, work_);
+    const bool all_exactly = forgets_overlaps(state_, work_);
     for (const std::size_t i : others)
       if (deepest_[i] > (asked_[i].before && !all_exactly ? phi0_[i] : 0))
         meet.push_back(i);
@@ -147,9 +84,8 @@ public:
         force[begin_ + i] = force_on_first(i);
   }
 
-  // direction: unit, of each pair of the question that presses; 0: none.
-  TetChunk finish(const geom::Vec3* direction) {
-    direction_ = direction + begin_;
+  TetChunk finish(const PushDirections& directions) {
+    find_pushes(directions);
     const std::size_t count = end_ - begin_;
     out_.contacts.reserve(count);
     out_.forces.reserve(lanes * n_batches_);
@@ -177,13 +113,14 @@ private:
     return result_[i].first >= 0 ? batches_[result_[i].first].energy[result_[i].second] : 0;
   }
 
-  geom::Vec3 force_on_first(std::size_t i) const {
+  geom::Vec3 force_at(std::size_t i, int corner) const {
     const auto& [batch, lane] = result_[i];
-    geom::Vec3 f = geom::Vec3::Zero();
-    for (int k = 0; k < 4; ++k)
-      f += geom::Vec3(batches_[batch].force[k][0][lane], batches_[batch].force[k][1][lane],
-                      batches_[batch].force[k][2][lane]);
-    return f;
+    const auto& f = batches_[batch].force[corner];
+    return {f[0][lane], f[1][lane], f[2][lane]};
+  }
+
+  geom::Vec3 force_on_first(std::size_t i) const {
+    return force_at(i, 0) + force_at(i, 1) + force_at(i, 2) + force_at(i, 3);
   }
 
   template <class Kernel>
@@ -214,12 +151,46 @@ private:
     press_pairs(of_.place.data(), batches_.get() + before, static_cast<std::int64_t>(more));
   }
 
+  // By the depth to which the step's motion takes it, as its own forces work.
   bool came_within_step(std::size_t i) const {
-    const auto& [batch, lane] = result_[i];
     if (!(energy(i) > 0))
       return true;
-    const Push push(*this, batches_[batch], lane, force_on_first(i).stableNormalized());
-    return deepest_[i] <= 1.5 * push.closing;
+    const auto& [batch, lane] = result_[i];
+    double power = 0; // W
+    for (int k = 0; k < 8; ++k)
+      power += force_at(i, k).dot(velocity_of(state_, batches_[batch].of.node[k][lane]));
+    return deepest_[i] * force_on_first(i).norm() <= -1.5 * work_.step * power;
+  }
+
+  double height(std::size_t i) const { return std::min(first(i).size.height, second(i).size.height); } // m
+  // m, depth at which one corner would have the pair's energy.
+  double as_one_corner(std::size_t i) const {
+    const auto& [batch, lane] = result_[i];
+    return std::sqrt(4 * energy(i) / batches_[batch].stiffness[lane]);
+  }
+  // Whether the depth that is told is the true one.
+  bool is_deep(std::size_t i) const { return as_one_corner(i) > 0.1 * height(i); }
+
+  void find_pushes(const PushDirections& directions) {
+    std::vector<std::size_t> deep;
+    pushes_.reset(new TetPairPush[n_batches_]); // as for batches_
+    for (std::size_t batch = 0; batch < n_batches_; ++batch)
+      for (auto& axis : pushes_[batch].normal)
+        std::fill_n(axis, lanes, 0.0);
+    for (std::size_t i = 0; i < end_ - begin_; ++i) {
+      const auto& [batch, lane] = result_[i];
+      if (!(energy(i) > 0))
+        continue;
+      if (is_deep(i))
+        deep.push_back(i);
+      const geom::Vec3 n = directions.of(begin_ + i);
+      for (int axis = 0; axis < 3; ++axis)
+        pushes_[batch].normal[axis][lane] = n[axis];
+    }
+    look(deep, find_deepest);
+    cdem::find_pushes(of_.place.data(), state_.velocity.data(),
+                      work_.restitution ? moving_mass(model_, state_).data() : nullptr, work_.step,
+                      batches_.get(), pushes_.get(), static_cast<std::int64_t>(n_batches_));
   }
 
   TetPairLaw law_of(std::size_t i) {
@@ -233,30 +204,26 @@ private:
   }
 
   void finish_pair(std::size_t i) {
-    const SurfaceTet &a = first(i), &b = second(i);
     const Contact* const before = asked_[i].before;
-    Contact c(Contact::tets, a.tet);
-    c.target = c.fragment = b.tet;
+    Contact c(Contact::tets, first(i).tet);
+    c.target = c.fragment = second(i).tet;
     if (before)
       c = *before;
     c.reference_penetration = phi0_[i];
-    if (const double energy = this->energy(i); energy > 0) {
-      const Push push(*this, batches_[result_[i].first], result_[i].second, direction_[i]);
-      if (!before)
-        c.normal = push.normal;
+    if (energy(i) > 0) {
       allowed_.push_back(0);
-      act(push, before, energy, law_of(i), std::min(a.size.height, b.size.height), c);
+      act(i, law_of(i), c);
       return;
     }
     if (before && before->effective_penetration() > 0)
       lose(*before, law_of(i).law);
     // An overlap is forgotten in the same steps whatever sleeps.
-    const bool forgets = relaxes(state_, work_) || !(c.reference_penetration > 0);
+    const bool forgets = forgets_overlaps(state_, work_) || !(c.reference_penetration > 0);
     if (!(deepest_[i] > 0) && (forgets || !before)) {
       allowed_.push_back(-deepest_[i]);
       return;
     }
-    if (relaxes(state_, work_))
+    if (forgets_overlaps(state_, work_))
       c.reference_penetration = std::min(c.reference_penetration, deepest_[i]);
     allowed_.push_back(trusted * (c.reference_penetration - deepest_[i]));
     c.depth = c.reference_penetration;
@@ -265,63 +232,17 @@ private:
     out_.contacts.push_back(c);
   }
 
-  // The two sides of a contact that presses.
-  struct Push {
-    Push(const Pressing& of, const TetPairPress& batch, int lane, const geom::Vec3& direction) {
-      geom::Vec3 all = geom::Vec3::Zero();
-      for (int k = 0; k < 8; ++k) {
-        node[k] = batch.of.node[k][lane];
-        corner[k] = {batch.force[k][0][lane], batch.force[k][1][lane], batch.force[k][2][lane]};
-        if (k < 4)
-          all += corner[k];
-      }
-      whole = all.norm();
-      if (all.dot(direction) > 0) {
-        normal = direction;
-        force = all.dot(normal);
-      }
-      double work = 0;                       // W
-      geom::Vec3 place = geom::Vec3::Zero(); // m, between what presses on the two
-      for (int k = 0; k < 8; ++k) {
-        work += corner[k].dot(velocity_of(of.state_, node[k]));
-        if (force > 0)
-          place +=
-              (k < 4 ? 0.5 : -0.5) / force * corner[k].dot(normal) * place_of(of.model_, of.state_, node[k]);
-        if (force > 0 && of.work_.restitution)
-          compliance +=
-              corner[k].squaredNorm() / (force * force) / moving_mass(of.model_, of.state_)[node[k]];
-      }
-      if (!(force > 0))
-        return;
-      closing = -of.work_.step * work / force;
-      geom::Vec3 velocity = geom::Vec3::Zero(); // m/s, of the first past the second
-      for (const int tet : {0, 1}) {
-        const geom::Tet nodes = {node[4 * tet], node[4 * tet + 1], node[4 * tet + 2], node[4 * tet + 3]};
-        const std::array<double, 4> at = within_tet(of.model_, of.state_, nodes, place);
-        for (int k = 0; k < 4; ++k) {
-          weight[4 * tet + k] = tet == 0 ? at[k] : -at[k];
-          velocity += weight[4 * tet + k] * velocity_of(of.state_, nodes[k]);
-        }
-        turned += 0.5 * of.work_.step * spin_of(of.model_, of.state_, nodes).dot(normal);
-      }
-      slid = of.work_.step * (velocity - velocity.dot(normal) * normal) - closing * normal;
-    }
-    std::array<int, 8> node{};
-    std::array<geom::Vec3, 8> corner; // N
-    std::array<double, 8> weight{}; // of the shear force: of the first they sum up to 1, of the second to -1
-    double whole = 0, force = 0, compliance = 0; // N, N along the normal, 1/kg
-    geom::Vec3 normal = geom::Vec3::UnitZ();     // unit, on the first
-    geom::Vec3 slid = geom::Vec3::Zero();        // m
-    double closing = 0, turned = 0; // m, in the step, as the potential works; rad, about the normal
-  };
-
-  void act(const Push& push, const Contact* before, double energy, const TetPairLaw& of_pair, double height,
-           Contact& c) {
+  void act(std::size_t i, const TetPairLaw& of_pair, Contact& c) {
+    const Contact* const before = asked_[i].before;
+    const auto& [batch, lane] = result_[i];
+    const TetPairPress& press = batches_[batch];
+    const TetPairPush& push = pushes_[batch];
+    const double energy = press.energy[lane], force = push.force[lane];
     ContactLaw law = of_pair.law;
     // The spring that has this force and energy; where the forces of the two cancel, one that has the energy.
-    const bool presses = push.force > 0;
-    const double pressed = presses ? 2 * energy / push.force : std::sqrt(2 * energy / of_pair.corner);
-    law.kn = presses ? push.force / pressed : of_pair.corner;
+    const bool presses = force > 0;
+    const double pressed = presses ? 2 * energy / force : std::sqrt(2 * energy / of_pair.corner);
+    law.kn = presses ? force / pressed : of_pair.corner;
     if (!presses) {
       if (before)
         lose(*before, law);
@@ -331,59 +252,53 @@ private:
       c.damping = 0;
     } else if (!(before && work_.step == 0)) {
       ContactMotion motion;
-      motion.normal = push.normal;
+      motion.normal = {push.normal[0][lane], push.normal[1][lane], push.normal[2][lane]};
+      if (!before)
+        c.normal = motion.normal;
       motion.depth = c.reference_penetration + pressed;
-      motion.slid = push.slid;
-      motion.turned = push.turned;
+      motion.slid = {push.slid[0][lane], push.slid[1][lane], push.slid[2][lane]};
+      motion.turned = push.turned[lane];
+      const double closing = push.closing[lane];
       if (work_.restitution && law.damping_ratio > 0)
-        set_approach(push, motion);
+        set_approach(closing, work_.step * work_.step * force * push.compliance[lane], motion);
       const double damping = c.damping;
       if (damping > 0) // stores the same in the spring of now
         c.damping *= std::sqrt(law.kn / c.stiffness);
-      const double jump = 0.5 * (damping - c.damping) * push.closing; // J
+      const double jump = 0.5 * (damping - c.damping) * closing; // J
       const ContactLoss loss = advance(c, law, motion);
       out_.friction.push_back(loss.friction);
       out_.damping.push_back(loss.damping + jump);
       c.stiffness = law.kn;
     }
-    const double stiffness = 1.5 * push.whole / (2 * energy) * (1 + law.damping_ratio); // 1/m, over the force
-    const double more = presses ? 1 + c.damping / push.force : 1;
-    TetPairForce at;
+    const double whole = force_on_first(i).norm();                                 // N
+    const double stiffness = 1.5 * whole / (2 * energy) * (1 + law.damping_ratio); // 1/m, over the force
+    const double more = presses ? 1 + c.damping / force : 1;
+    TetPairForce& at = out_.forces.emplace_back();
     at.block = block_;
-    at.node = push.node;
     for (int k = 0; k < 8; ++k) {
-      at.force[k] = more * push.corner[k] + push.weight[k] * c.shear;
+      const double weight = presses ? push.weight[k][lane] : 0;
+      at.node[k] = press.of.node[k][lane];
+      at.force[k] = more * force_at(i, k) + weight * c.shear;
       // Where forces cancel, the spring is soft and the potential is not.
       at.stiffness[k] =
-          std::max(push.corner[k].norm() * stiffness, of_pair.corner) + std::abs(push.weight[k]) * law.ks;
+          std::max(push.length[k][lane] * stiffness, of_pair.corner) + std::abs(weight) * law.ks;
     }
-    out_.forces.push_back(at);
     out_.contacts.push_back(c);
-    // The depth at which one corner would have this energy; where that is much, the true one.
-    double depth = std::sqrt(4 * energy / of_pair.corner);
-    if (depth > 0.1 * height) {
-      TetPairView pair;
-      for (int lane = 0; lane < lanes; ++lane)
-        pair.set(lane, {push.node[0], push.node[1], push.node[2], push.node[3]},
-                 {push.node[4], push.node[5], push.node[6], push.node[7]});
-      find_deepest(of_.place.data(), &pair, 1);
-      depth = pair.deepest[0] - c.reference_penetration;
-    }
+    const double depth = is_deep(i) ? deepest_[i] - phi0_[i] : as_one_corner(i);
     out_.depth = std::max(out_.depth, depth);
-    if (depth / height > out_.depth_over_height) {
-      out_.depth_over_height = depth / height;
+    if (depth / height(i) > out_.depth_over_height) {
+      out_.depth_over_height = depth / height(i);
       out_.deepest = {static_cast<int>(c.source), c.target};
     }
   }
 
-  // As for semi-springs: by the speed that the contact's own force can turn round in a step.
-  void set_approach(const Push& push, ContactMotion& motion) const {
-    const double reversed = work_.step * work_.step * push.force * push.compliance;
+  // As for semi-springs: by the speed that the contact's own force can turn round in a step, reversed: m in the step.
+  static void set_approach(double closing, double reversed, ContactMotion& motion) {
     const auto part = [&](double way) {
       return std::abs(way) < reversed ? way / reversed : std::copysign(1.0, way);
     };
-    motion.approach = part(push.closing);
-    motion.held_at_most = motion.approach <= -1 ? 1 : std::abs(part(2 * push.closing));
+    motion.approach = part(closing);
+    motion.held_at_most = motion.approach <= -1 ? 1 : std::abs(part(2 * closing));
   }
 
   // What its shear force and its damping stored is lost; its potential has given back what it had.
@@ -400,13 +315,13 @@ private:
   const State& state_;
   const ContactWork& work_;
   const TetContacts& of_;
-  const Question& question_;
+  const TetQuestion& question_;
   std::size_t begin_, end_;
-  const Asked* asked_;
-  const geom::Vec3* direction_ = nullptr;
+  const AskedPair* asked_;
   TetChunk out_;
   // Each pair presses twice at most. Not set to 0: that would cost as much as what is written.
   std::unique_ptr<TetPairPress[]> batches_{new TetPairPress[2 * pairs_per_chunk / lanes]};
+  std::unique_ptr<TetPairPush[]> pushes_;
   std::size_t n_batches_ = 0;
   std::vector<std::pair<int, int>> result_;      // batch and lane of the force; -1: none was asked for
   std::vector<double> phi0_, deepest_, allowed_; // m
@@ -414,52 +329,6 @@ private:
   const Joint* joint_ = nullptr;
   double tan_friction_ = 0;
 };
-
-// In what direction each pair presses on its first tetrahedron, unit. Where a corner or an edge comes near an inner plane of the
-// body that it stands in, that plane is the nearest and pushes it aside, and the tetrahedron beyond pushes it back; and an edge is
-// that of several tetrahedra, each with one plane of the surface. So friction goes by the direction of all that presses from about
-// the same side on one of the two.
-std::vector<geom::Vec3> directions_of(const TetContacts& of, const Question& question,
-                                      const std::vector<geom::Vec3>& force) {
-  constexpr double same_side = 0.5; // cosine
-  std::vector<int> begin(of.tets.size() + 1, 0), pairs;
-  const auto tets = [&](std::size_t i) {
-    const std::size_t near = question.asked[i].near;
-    return std::array<int, 2>{of.near.a[near], of.near.b[near]};
-  };
-  std::vector<std::size_t> pressing;
-  for (std::size_t i = 0; i < force.size(); ++i)
-    if (force[i].squaredNorm() > 0) {
-      pressing.push_back(i);
-      for (const int tet : tets(i))
-        ++begin[tet + 1];
-    }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  pairs.resize(2 * pressing.size());
-  std::vector<int> end(begin.begin(), begin.end() - 1);
-  for (const std::size_t i : pressing)
-    for (const int tet : tets(i))
-      pairs[end[tet]++] = static_cast<int>(i);
-  std::vector<double> length(force.size(), 0.0); // N
-  for (const std::size_t i : pressing)
-    length[i] = force[i].norm();
-  std::vector<geom::Vec3> direction(force.size(), geom::Vec3::Zero());
-  for (const std::size_t i : pressing) {
-    geom::Vec3 sum = geom::Vec3::Zero();
-    for (const int tet : tets(i)) {
-      geom::Vec3 of_tet = geom::Vec3::Zero();
-      const double side = tet == tets(i)[0] ? 1 : -1;
-      for (int p = begin[tet]; p < begin[tet + 1]; ++p) {
-        const geom::Vec3 more = (tets(pairs[p])[0] == tet ? side : -side) * force[pairs[p]];
-        if (more.dot(force[i]) > same_side * length[pairs[p]] * length[i])
-          of_tet += more;
-      }
-      sum += of_tet.stableNormalized();
-    }
-    direction[i] = sum.stableNormalized();
-  }
-  return direction;
-}
 
 } // namespace
 
@@ -472,7 +341,7 @@ std::vector<TetChunk> press_tets(const Model& model, const State& state, Contact
     return found;
   }
   TetContacts& of = *work.tet_contacts;
-  const Question question = question_of(state, work);
+  const TetQuestion question = tet_question(state, work);
   std::vector<Range> chunks = split(static_cast<std::int64_t>(question.asked.size()), pairs_per_chunk);
   if (chunks.empty())
     chunks.emplace_back(); // for contacts that sleep
@@ -485,8 +354,8 @@ std::vector<TetChunk> press_tets(const Model& model, const State& state, Contact
   const auto n_chunks = static_cast<std::int64_t>(chunks.size());
   std::vector<geom::Vec3> force(question.asked.size(), geom::Vec3::Zero());
   for_chunks(n_chunks, threads, [&](std::int64_t i) { pressing[i].press(force.data()); });
-  const std::vector<geom::Vec3> direction = directions_of(of, question, force);
-  for_chunks(n_chunks, threads, [&](std::int64_t i) { found[i] = pressing[i].finish(direction.data()); });
+  const PushDirections directions(of, question, force);
+  for_chunks(n_chunks, threads, [&](std::int64_t i) { found[i] = pressing[i].finish(directions); });
   std::size_t asked = 0;
   for (const Pressing& of_chunk : pressing)
     for (const double may_go : of_chunk.allowed())

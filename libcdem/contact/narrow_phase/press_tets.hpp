@@ -1,11 +1,8 @@
-// Contacts of a block with itself, by pairs of its tetrahedra (response/tet_potential.hpp).
+// Contacts of a block with itself, by pairs of its tetrahedra (response/tet_potential.hpp, response/tet_push.hpp).
 //
-// A pair that is found in an overlap starts without a force: phi0 is that overlap. It falls to the overlap there is every
-// 20 steps of the model (relaxes), whether the pair is asleep or not. A pair that came together within the step starts at 0.
-//
-// The normal force N of a contact is the resultant of the gradient, its normal n the direction of it. Corner i of a
-// tetrahedron with the force f_i has the weight f_i . n / N: friction and damping act by these weights, so they
-// keep momentum.
+// A pair that is found in an overlap starts without a force: phi0 is that overlap. It falls to the overlap there is, and one that
+// has parted is forgotten, in the steps in which overlaps are forgotten (forgets_overlaps), whether the pair is asleep or not. A pair
+// that came together within the step starts at 0.
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"

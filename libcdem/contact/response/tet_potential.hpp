@@ -16,10 +16,9 @@
 // phi0 (m) is the overlap that a pair may have without a force.
 #pragma once
 
-#include "libcdem/parallel/simd.hpp"
+#include "libcdem/parallel/triple.hpp"
 
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace cdem {
@@ -39,14 +38,6 @@ template <class V>
 CDEM_INLINE V most(const V& a, const V& b) {
   return a > b ? a : b;
 }
-template <class V>
-CDEM_INLINE V square_root(const V& a) {
-  V root;
-  for (int lane = 0; lane < width<V>; ++lane)
-    root[lane] = std::sqrt(a[lane]);
-  return root;
-}
-
 } // namespace simd
 
 template <class V>
@@ -67,7 +58,7 @@ CDEM_INLINE DepthsInTet<V> depths_in_tet(const TetCorners<V>& target, const TetC
     const Triple<V>& foot = target[planes_of_tet[k][0]];
     const Triple<V> n =
         cross(minus(target[planes_of_tet[k][1]], foot), minus(target[planes_of_tet[k][2]], foot));
-    at.reciprocal[k] = 1.0 / simd::square_root<V>(dot(n, n));
+    at.reciprocal[k] = 1.0 / root(dot(n, n));
     at.normal[k] = scaled(at.reciprocal[k], n);
     for (int i = 0; i < 4; ++i)
       at.depth[k][i] = -dot(at.normal[k], minus(source[i], foot));
@@ -128,25 +119,26 @@ CDEM_INLINE V deepest_in_tet(const DepthsInTet<V>& at) {
         deepest, simd::least<V>(simd::least<V>(d[0][i], d[1][i]), simd::least<V>(d[2][i], d[3][i])));
   for (const std::array<int, 3>& face : planes_of_tet)
     deepest = simd::most<V>(deepest, in_middle<V>(at, face));
-  const V zero{}, one = zero + 1.0;
+  const V zero{}, one = zero + 1.0, nowhere = zero - 1e300;
   for (int edge = 0; edge < 6; ++edge) {
     const int p = edges_of_tet[edge][0], q = edges_of_tet[edge][1];
     V at_most = simd::most<V>(d[0][p], d[0][q]); // on the edge
     for (int k = 1; k < 4; ++k)
       at_most = simd::least<V>(at_most, simd::most<V>(d[k][p], d[k][q]));
-    if (!simd::any(at_most > deepest))
+    if (!simd::any(simd::below<V>(deepest, at_most)))
       continue;
     for (int k = 0; k < 4; ++k)
       for (int j = k + 1; j < 4; ++j) {
         const V a = d[j][p] - d[k][p], b = d[j][q] - d[k][q];
-        const simd::MaskOf<V> crosses = ((a < zero) & (b > zero)) | ((a > zero) & (b < zero));
+        const simd::MaskOf<V> crosses = (simd::below<V>(a, zero) & simd::below<V>(zero, b)) |
+                                        (simd::below<V>(zero, a) & simd::below<V>(b, zero));
         if (!simd::any(crosses))
           continue;
         const V t = a / (crosses ? a - b : one);
         V here = d[0][p] + t * (d[0][q] - d[0][p]);
         for (int l = 1; l < 4; ++l)
           here = simd::least<V>(here, d[l][p] + t * (d[l][q] - d[l][p]));
-        deepest = crosses ? simd::most<V>(deepest, here) : deepest;
+        deepest = simd::most<V>(deepest, crosses ? here : nowhere);
       }
   }
   return deepest;
@@ -167,31 +159,32 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
   V energy{};
   for (int i = 0; i < 4; ++i) {
     const V phi = simd::least<V>(simd::least<V>(d[0][i], d[1][i]), simd::least<V>(d[2][i], d[3][i]));
-    const Mask inside = phi > zero;
+    const Mask inside = simd::below<V>(zero, phi);
     if (!simd::any(inside))
       continue;
     const V pressed = inside ? half * phi : zero;
     energy += 0.5 * pressed * phi;
-    Mask used = phi != phi;
+    Mask used{};
     for (int plane = 0; plane < 4; ++plane) {
-      const Mask here = (d[plane][i] == phi) & ~used;
+      const Mask here = simd::equal<V>(d[plane][i], phi) & ~used;
       used |= here;
       share[plane][i] += here ? pressed : zero;
     }
   }
   for (const std::array<int, 3>& face : planes_of_tet) {
     const V phi = in_middle<V>(at, face);
-    const Mask inside = phi > zero;
+    const Mask inside = simd::below<V>(zero, phi);
     if (!simd::any(inside))
       continue;
     const V pressed = inside ? middle_share * half * phi : zero;
     energy += 0.5 * pressed * phi;
-    Mask used = phi != phi;
+    Mask used{};
     for (int plane = 0; plane < 4; ++plane) {
       const auto& at_plane = d[plane];
       const V third = (1.0 / 3) * pressed;
       const Mask here =
-          ((1.0 / 3) * (at_plane[face[0]] + at_plane[face[1]] + at_plane[face[2]]) == phi) & ~used;
+          simd::equal<V>((1.0 / 3) * (at_plane[face[0]] + at_plane[face[1]] + at_plane[face[2]]), phi) &
+          ~used;
       used |= here;
       for (const int i : face)
         share[plane][i] += here ? third : zero;
@@ -201,16 +194,16 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
     const int p = edges_of_tet[edge][0], q = edges_of_tet[edge][1];
     // The part of the edge inside all planes.
     V from = zero, to = one;
-    Mask outside = zero > one;
+    Mask outside{};
     for (int plane = 0; plane < 4; ++plane) {
       const V a = d[plane][p], b = d[plane][q];
-      const Mask starts_out = a < zero, ends_out = b < zero;
-      outside |= (a <= zero) & (b <= zero);
+      const Mask starts_out = simd::below<V>(a, zero), ends_out = simd::below<V>(b, zero);
+      outside |= simd::at_most<V>(a, zero) & simd::at_most<V>(b, zero);
       const V t = a / (a == b ? one : a - b);
       from = simd::most<V>(from, starts_out ? (ends_out ? never : t) : zero);
       to = simd::least<V>(to, ends_out ? t : one);
     }
-    if (!simd::any((to > from) & ~outside))
+    if (!simd::any(simd::below<V>(from, to) & ~outside))
       continue;
     // Of each plane, the part where it is the nearest.
     std::array<V, 4> begin, end;
@@ -220,14 +213,14 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
       for (int other = plane + 1; other < 4; ++other) {
         const V a = d[other][p] - d[plane][p], b = d[other][q] - d[plane][q]; // at least 0: `plane` is nearer
         const V t = a / (a == b ? one : a - b);
-        const Mask starts_far = a < zero, ends_far = b < zero;
+        const Mask starts_far = simd::below<V>(a, zero), ends_far = simd::below<V>(b, zero);
         begin[plane] = simd::most<V>(begin[plane], starts_far ? (ends_far ? never : t) : zero);
         end[plane] = simd::least<V>(end[plane], ends_far ? t : one);
         begin[other] = simd::most<V>(begin[other], starts_far ? zero : (ends_far ? t : never));
         end[other] = simd::least<V>(end[other], ends_far ? one : t);
       }
     for (int plane = 0; plane < 4; ++plane) {
-      const Mask there = (end[plane] > begin[plane]) & ~outside;
+      const Mask there = simd::below<V>(begin[plane], end[plane]) & ~outside;
       if (!simd::any(there))
         continue;
       const V a = begin[plane], b = there ? end[plane] : a, w = b - a;
@@ -242,7 +235,7 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
   for (int plane = 0; plane < 4; ++plane) {
     const auto& s = share[plane];
     const V sum = s[0] + s[1] + s[2] + s[3];
-    if (!simd::any(sum > zero))
+    if (!simd::any(simd::below<V>(zero, sum)))
       continue;
     const Triple<V>& n = at.normal[plane];
     Triple<V> moment = scaled(s[0], source[0]);
