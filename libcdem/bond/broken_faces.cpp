@@ -120,7 +120,7 @@ private:
   bool snap(int point, std::int64_t spring, std::uint8_t& mode, Plane2& slip, FaceSums& sums) {
     const Response bonded = stretched(kn(), ks(), now_, point);
     const double area = batch_.area[lane_], shear = length(bonded.shear);
-    const BondMode now = due(law_, area, kn() * bonded.opening, shear);
+    const BondMode now = now_.torn ? BondMode::broken_tension : due(law_, area, kn() * bonded.opening, shear);
     if (now == BondMode::intact)
       return false;
     mode = static_cast<std::uint8_t>(now);

@@ -56,7 +56,7 @@ CDEM_INLINE PartsOfStretch<T> parts_of_stretch(const SofteningLawOf<T>& law, con
   const Triple<T> along = stretch - open * normal;
   const T shear = root(dot(along, along)),
           held = friction_limit<T>(none < -open ? -open : none, law.tan_friction);
-  const auto slips = shear > held;
+  const auto slips = simd::below(held, shear);
   const T slipping = slips ? (shear - held) / (slips ? shear : one) : none;
   const Triple<T> bonded = (none < open ? open : none) * normal + slipping * along;
   return {stretch - bonded, bonded};
@@ -85,10 +85,11 @@ struct CohesiveResponse {
 // less than the true one; what is left goes with the next step of time.
 constexpr int cohesive_iterations = 4;
 
-// grows: damage may advance.
+// grows: damage may advance. torn: what is left of the strength goes at once (turned_away).
 template <class T>
 CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, const CohesivePoint<T>& at,
-                                                  const Triple<T>& jump, const simd::MaskOf<T>& grows) {
+                                                  const Triple<T>& jump, const simd::MaskOf<T>& grows,
+                                                  const simd::MaskOf<T>& torn = simd::MaskOf<T>{}) {
   const T none{}, one = none + 1.0;
   const Triple<T> gap = jump - at.start;
   const PartsOfStretch<T> begun = parts_of_stretch<T>(law, at.plane, at.offset);
@@ -96,7 +97,7 @@ CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, 
   CohesiveResponse<T> r;
   r.damage = at.damage;
   r.drawn = at.drawn;
-  const simd::MaskOf<T> may = grows & law.softens & (at.damage < one);
+  const simd::MaskOf<T> may = grows & law.softens & simd::below(at.damage, one);
   if (simd::any(may)) {
     const Triple<T> whole = gap + at.offset;
     const T open = dot(whole, at.plane);
@@ -105,9 +106,9 @@ CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, 
     const StrengthLeft<T> left = strength_left<T>(law, open, shear, drive < one ? one : drive);
     const T before = one - at.damage;
     T ratio = strength_ratio<T>(law, at.plane, pressed + at.drawn * begun.bonded);
-    const simd::MaskOf<T> advances = may & (before * ratio > left.part);
+    const simd::MaskOf<T> advances = may & (torn | simd::below<T>(left.part, before * ratio));
     if (simd::any(advances)) {
-      const simd::MaskOf<T> onwards = dot(gap, begun.bonded) > none;
+      const simd::MaskOf<T> onwards = simd::below<T>(none, dot(gap, begun.bonded));
       const T begun_ratio = strength_ratio<T>(law, at.plane, begun.bonded),
               fading = onwards ? 4.0 * begun_ratio : none;
       T part = one, drawn = at.drawn; // of lambda, a
@@ -118,11 +119,11 @@ CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, 
         drawn = onwards ? at.drawn * fourth_power<T>(part) : at.drawn;
         ratio = strength_ratio<T>(law, at.plane, pressed + drawn * begun.bonded);
       }
-      const simd::MaskOf<T> ends = left.part <= none;
+      const simd::MaskOf<T> ends = torn | simd::at_most(left.part, none);
       r.damage = advances ? (ends ? one : one - before * part) : r.damage;
       r.drawn = advances ? (ends ? none : drawn) : r.drawn;
       r.separated = advances & ends;
-      r.opens = left.opens;
+      r.opens = torn | left.opens;
     }
   }
   const SpringResponseOf<T> contact =

@@ -342,20 +342,21 @@ CDEM_INLINE void advance_group(const CohesiveChunk& chunk, const SofteningJoint<
       simd::prefetch(&chunk.cohesive[faces[i]], sizeof(CohesiveFace));
     const CohesivePoint<V> at = memories.point(point);
     const T3 &gap = s.now.gap[point], &gap0 = s.before.gap[point];
-    const CohesiveResponse<V> r = cohesive_response<V>(law, at, gap, grows);
+    const CohesiveResponse<V> r = cohesive_response<V>(law, at, gap, grows, s.now.frame.torn);
     const SofteningLoss<V> lost = cohesive_loss<V>(law, at, gap0, gap, r);
-    const MaskOf<V> damaged = r.damage > none; // nothing is lost while it is whole
+    const MaskOf<V> damaged = simd::below<V>(none, r.damage); // nothing is lost while it is whole
     const V facing = g.area * at.plane.z, grown = r.damage - at.damage;
     const V taken = facing * (damaged ? lost.breaking : none);
     // What the point loses goes by the trapezoidal rule.
     friction += damaged ? facing * lost.friction : none;
     breaking += taken + 0.5 * g.area * grown * dot(at.rest, (gap - at.start) + (gap0 - at.start));
-    const V into_crack = (grown > none) & (taken > none) ? taken : none,
+    const V into_crack = simd::below<V>(none, grown) & simd::below<V>(none, taken) ? taken : none,
             share_of_shear = shear_share<V>(law, at.plane, r.stretch);
     shear += share_of_shear * into_crack;
     tension += (1.0 - share_of_shear) * into_crack;
-    const MaskOf<V> no_traction = (r.across.x == none) & (r.across.y == none) & (r.across.z == none);
-    const MaskOf<V> lost_all = r.damage >= one;
+    const MaskOf<V> no_traction = simd::equal<V>(r.across.x, none) & simd::equal<V>(r.across.y, none) &
+                                  simd::equal<V>(r.across.z, none);
+    const MaskOf<V> lost_all = simd::at_most<V>(one, r.damage);
     without &= lost_all;
     open &= no_traction;
     ended[point] = simd::bits_of(lost_all) & used;

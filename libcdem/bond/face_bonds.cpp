@@ -110,7 +110,8 @@ CDEM_INLINE unsigned near_strength(const FaceBatch& batch, const Gaps& gaps, con
     const V fn = kn * gn;
     const V shear2 = (law.shear_ratio * law.shear_ratio) * kn * kn * (g2 - gn * gn);
     const V left = shear_strength(cohesion, tan_friction, fn);
-    near |= ((fn >= tension) | (shear2 >= left * left) | (left <= V{})) &
+    near |= (simd::at_most<V>(tension, fn) | simd::at_most<V>(left * left, shear2) |
+             simd::at_most<V>(left, V{})) &
             simd::lanes_with<V>(state.mode[point] + first, static_cast<std::uint8_t>(BondMode::intact));
   }
   return simd::bits_of(near) << first;
@@ -171,7 +172,8 @@ CDEM_INLINE void face_bond_kernel(const FaceBatch* batches, std::int64_t count, 
           lane_by_lane = handed_over(state[i], lane) ? lane_by_lane & ~(1u << lane) : lane_by_lane;
         lane_by_lane |= in_parts<V>([&](auto part) __attribute__((always_inline)) {
           return slide<V, part>(batch, motion, here, strengths.tan_friction, lane_by_lane, i * lanes,
-                                gaps.corner, gaps.point, state[i], slips[state[i].slip], force, sums);
+                                gaps.corner, gaps.point, state[i], breaking, slips[state[i].slip], force,
+                                sums);
         });
       }
       if (lane_by_lane != 0) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "libcdem/bond/face_bonds.hpp"
+#include "libcdem/parallel/triple.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
@@ -14,9 +15,22 @@ inline constexpr double point_weight(int point, int corner) {
   return point == corner ? 2.0 / 3 : 1.0 / 6;
 }
 
+// Whether the two sides of a face have turned from each other by more than 60 degrees: their normals (any length), or their first
+// edges. A bond that still holds at one of its points has torn then: that point stands for a third of the face, and around it the
+// sides have parted by as much as the face is wide. Means of sides that have turned about have no direction.
+template <class T>
+CDEM_INLINE simd::MaskOf<T> turned_away(const Triple<T>& normal_a, const Triple<T>& normal_b,
+                                        const Triple<T>& edge_a, const Triple<T>& edge_b) {
+  const auto apart = [](const Triple<T>& a, const Triple<T>& b) __attribute__((always_inline)) {
+    return simd::below<T>(dot(a, b), 0.5 * root(dot(a, a) * dot(b, b)));
+  };
+  return apart(normal_a, normal_b) | apart(edge_a, edge_b);
+}
+
 struct FaceFrame {
   std::array<geom::Vec3, 3> gap;    // m, from a to b, in space
   geom::Vec3 normal, along, across; // unit, the first edge in the plane
+  bool torn = false;                // turned_away
   geom::Vec3 in_axes(const geom::Vec3& v) const { return {v.dot(along), v.dot(across), v.dot(normal)}; }
   geom::Vec3 in_space(const geom::Vec3& v) const { return v[0] * along + v[1] * across + v[2] * normal; }
 };
@@ -30,7 +44,10 @@ FaceFrame face_frame(const FaceNodes& at, const Place& place, const Moved& moved
   const geom::Vec3 x0 = place(at.a[0]);
   const geom::Vec3 e1 = place(at.a[1]) - x0, e2 = place(at.a[2]) - x0;
   FaceFrame f;
-  f.normal = (e1.cross(e2) + (e1 + d[1] - d[0]).cross(e2 + d[2] - d[0])).normalized();
+  const geom::Vec3 edge_b = e1 + d[1] - d[0], normal_a = e1.cross(e2),
+                   normal_b = edge_b.cross(e2 + d[2] - d[0]);
+  f.torn = turned_away<double>(triple(normal_a), triple(normal_b), triple(e1), triple(edge_b));
+  f.normal = (normal_a + normal_b).normalized();
   const geom::Vec3 edge = e1 + 0.5 * (d[1] - d[0]);
   f.along = (edge - edge.dot(f.normal) * f.normal).normalized();
   f.across = f.normal.cross(f.along);

@@ -15,6 +15,7 @@ namespace cdem {
 template <class V>
 struct FramesOfFaces {
   simd::VecOf<V> normal, along, across; // unit
+  simd::MaskOf<V> torn;                 // turned_away
 };
 
 template <class V>
@@ -30,7 +31,9 @@ CDEM_INLINE FramesOfFaces<V> frames_of_faces(const simd::VecOf<V> (&x)[3], const
                  d2 = minus(d[2], d[0]);
   const V half = V{} + 0.5;
   FramesOfFaces<V> f;
-  f.normal = unit_vector(plus(cross(e1, e2), cross(plus(e1, d1), plus(e2, d2))));
+  const VecOf<V> edge_b = plus(e1, d1), normal_a = cross(e1, e2), normal_b = cross(edge_b, plus(e2, d2));
+  f.torn = turned_away<V>(normal_a, normal_b, e1, edge_b);
+  f.normal = unit_vector(plus(normal_a, normal_b));
   const VecOf<V> edge = plus(e1, scaled(half, d1));
   f.along = unit_vector(minus(edge, scaled(dot(edge, f.normal), f.normal)));
   f.across = cross(f.normal, f.along);
@@ -43,14 +46,14 @@ CDEM_INLINE simd::VecOf<V> part_of(const simd::Vec& v) {
 }
 
 // Advances the broken springs of faces of a batch, from `first` on, and replaces their force on side a, N; `lane_by_lane`: faces of
-// the batch that are left alone. corner, point: m, gaps there. slips: of the batch. Returns the faces that have parted or slid
-// away, a bit each, in steps in which they may leave.
+// the batch that are left alone. corner, point: m, gaps there. slips: of the batch. Returns a bit each for faces that have torn, and,
+// in steps in which they may leave, for those that have parted or slid away.
 template <class V, int first>
 CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, const FaceLaw& law,
                            const simd::Oct& tan_of_all, unsigned lane_by_lane, std::int64_t first_face,
                            const simd::Vec (&corner)[3], const simd::Vec (&point_gap)[3],
-                           const FaceStateBatch& state, FaceSlipBatch& slips, simd::Vec (&force)[3],
-                           FaceSums& sums) {
+                           const FaceStateBatch& state, bool breaking, FaceSlipBatch& slips,
+                           simd::Vec (&force)[3], FaceSums& sums) {
   using namespace simd;
   using M = MaskOf<V>;
   constexpr int count = width<V>;
@@ -97,11 +100,11 @@ CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, con
     double(&kept)[2][lanes] = slips.value[point];
     double(&had)[2][lanes] = slips.shear[point];
     const V from[2] = {load_wide<V>(kept[0] + first), load_wide<V>(kept[1] + first)};
-    const M open = opening[point] > 0.0;
+    const M open = below<V>(zero, opening[point]);
     const V trial[2] = {ks * (along[point][0] - from[0]), ks * (along[point][1] - from[1])};
     const V size = root(trial[0] * trial[0] + trial[1] * trial[1]),
             limit = friction_limit<V>(-kn * opening[point], tan_friction);
-    const M slides = ~open & (size > limit);
+    const M slides = ~open & below<V>(limit, size);
     const V too_much = (one - limit / (slides ? size : one)) / (slides ? ks : one);
     V shear[2];
     for (int axis = 0; axis < 2; ++axis) {
@@ -128,30 +131,32 @@ CDEM_INLINE unsigned slide(const FaceBatch& batch, const FaceMotion& motion, con
   }
   for (int lane = 0; lane < count; ++lane)
     sums.friction += lost[lane];
+  const unsigned torn = breaking ? bits_of(M(any_broken & ~all & now.torn)) << first : 0;
   // Faces without a whole bond.
   if (!any(all))
-    return 0;
+    return torn;
   const V area = 3.0 * load_wide<V>(batch.area + first);
   if (!law.hands_over) {
     M astray{};
     for (int point = 0; point < 3; ++point) {
       const VecOf<V> gap = cdem::part_of<V, first>(point_gap[point]);
-      astray |= all & (opening[point] < 0.0) & (dot(gap, gap) > area);
+      astray |= all & below<V>(opening[point], zero) & below<V>(area, dot(gap, gap));
     }
     if (any(astray))
       for (int lane = 0; lane < count; ++lane)
         sums.astray = astray[lane] != 0 ? first_face + first + lane : sums.astray;
-    return 0;
+    return torn;
   }
   if (!law.hand_over_due)
-    return 0;
+    return torn;
   M is_gone{};
   const V size = root(area);
   for (int point = 0; point < 3; ++point) {
     const V &u = along[point][0], &v = along[point][1];
-    is_gone |= (opening[point] > parted_from * size) | (u * u + v * v > (slid_from * slid_from) * area);
+    is_gone |= below<V>(parted_from * size, opening[point]) |
+               below<V>((slid_from * slid_from) * area, u * u + v * v);
   }
-  return bits_of(M(all & is_gone)) << first;
+  return torn | bits_of(M(all & is_gone)) << first;
 }
 
 } // namespace cdem

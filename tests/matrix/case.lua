@@ -97,7 +97,7 @@ if way == "breaking_stranger" then -- it is torn from its top
   stranger.bonds = seed % 2 == 0 and "cohesive" or "springs"
 end
 local rubbing = { friction_angle = rounded(10, 40) }
-if with("restitution", 0.4) then rubbing.restitution = rounded(0, 0.9) end
+if with("restitution", 0.4) then rubbing.restitution = rounded(0.01, 0.9) end
 local model = cdem.model{ bodies = bodies, contacts = { default = cdem.coulomb(rubbing) } }
 print("MODEL", seed, table.concat(kinds, " "))
 if way == "stranger" then model:fix{ on = "stranger" } end
