@@ -6,10 +6,15 @@
 #   <!-- figures: case.lua --set runout=0 -->
 #   | factor of safety | 1.203<!-- factor_of_safety --> |       a number that is followed by the name of its figure
 #   | error | 0.12<!-- error * 100 --> % |                       shown in another unit
+#   | error | 0.12<!-- 2:error --> |                             of the second run of the page; otherwise the last above
+#   ![Slip](pictures/slip.png)<!-- slip.png -->                  a picture that the run has drawn
 #   <!-- figures of code 0123456789ab -->                        written by this script: the code that gave them
+#
+# <!-- figures: none --> says that a page has no figures.
 #
 # Without names it runs nothing and tells which pages hold figures of older code. With names (or `all`) it runs what the
 # pages say, into build/figures, and compares every marked number to its last digit; --remake writes those that differ.
+# Pictures are copied, unless the page is of this code already.
 # figures.sh --mark FOLDER adds a note to the pages of a copy of examples whose figures are older than the code.
 set -euo pipefail
 
@@ -28,9 +33,20 @@ stamp_of() { # README -> the code that it says gave its figures
 
 runs_of() { sed -n 's/^<!-- figures: \(.*\) -->$/\1/p' "$1"; }
 
-state_of() { # README -> current, older or unmarked
+pictures_of() { # README -> lines "RUN picture of the run, picture of the page"
+  awk '/^<!-- figures: .* -->$/ { ++run }
+       { while (match($0, /\(pictures\/[^)]+\)<!-- ([0-9]+:)?[^ ]+ -->/)) {
+           split(substr($0, RSTART + 1, RLENGTH - 1), word, /\)<!-- | -->/); $0 = substr($0, RSTART + RLENGTH)
+           at = match(word[2], /^[0-9]+:/) ? RLENGTH : 0
+           print at ? word[2] + 0 : run, substr(word[2], at + 1), word[1]
+         } }' "$1"
+}
+
+state_of() { # README -> current, older, none or unmarked
   if [[ -z $(runs_of "$1") ]]; then
     printf unmarked
+  elif [[ $(runs_of "$1") == none ]]; then
+    printf none
   elif [[ $(stamp_of "$1") == "$(code_of "$(dirname -- "$1")")" ]]; then
     printf current
   else
@@ -44,24 +60,26 @@ values_of() {
                    /^ *"value": / { gsub(/^ *"value": |,$/, ""); print run, name, $0 }' "$1"
 }
 
-# values README -> README with what the values say; what differs on stderr, 1 as the code if anything does.
+# values README -> README with what the values say; what differs on stderr. 1 as the code if anything does, 2 if a figure is
+# missing.
 compare() {
   awk -v page="$2" '
     FNR == NR { value[$1 " " $2] = $3; next }
     /^<!-- figures: .* -->$/ { ++run }
     {
       out = ""; rest = $0
-      while (match(rest, /[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?<!-- [A-Za-z0-9_.]+( \* [0-9.e+-]+)? -->/)) {
+      while (match(rest, /[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?<!-- ([0-9]+:)?[A-Za-z0-9_.]+( \* [0-9.e+-]+)? -->/)) {
         found = substr(rest, RSTART, RLENGTH)
         out = out substr(rest, 1, RSTART - 1); rest = substr(rest, RSTART + RLENGTH)
         shown = substr(found, 1, index(found, "<!--") - 1)
         split(substr(found, index(found, "<!--")), word, " ")
-        name = word[2]; factor = word[3] == "*" ? word[4] : 1
-        if (!((run " " name) in value) || value[run " " name] !~ /^[-+0-9]/) {
-          printf "%s:%d: run %d reports no number %s\n", page, FNR, run, name > "/dev/stderr"; wrong = 1
+        of = run; name = word[2]; factor = word[3] == "*" ? word[4] : 1
+        if (match(name, /^[0-9]+:/)) { of = name + 0; name = substr(name, RLENGTH + 1) }
+        if (!((of " " name) in value) || value[of " " name] !~ /^[-+0-9]/) {
+          printf "%s:%d: run %d reports no number %s\n", page, FNR, of, name > "/dev/stderr"; missing = 1
           out = out found; continue
         }
-        now = value[run " " name] * factor
+        now = value[of " " name] * factor
         exponent = match(shown, /e/) ? substr(shown, RSTART + 1) + 0 : 0
         mantissa = shown; sub(/e.*/, "", mantissa)
         digits = index(mantissa, ".") ? length(mantissa) - index(mantissa, ".") : 0
@@ -76,13 +94,18 @@ compare() {
       }
       if ($0 !~ /^<!-- figures of code /) print out rest
     }
-    END { exit wrong }' "$1" "$2"
+    END { exit missing ? 2 : wrong }' "$1" "$2"
 }
 
 check() { # folder of an example; runs what its page says, unless this code has run it already
-  local page=$1/README.md name code number=0 folder script wrong=0
+  local page=$1/README.md name code number=0 folder script wrong=0 state run from to
   local -a arguments
   name=$(basename -- "$1")
+  state=$(state_of "$page")
+  case $state in
+    none) printf '%s: the page has no figures\n' "$name" && return 0 ;;
+    unmarked) printf '%s: the page marks no figures\n' "$name" && return 0 ;;
+  esac
   code=$(code_of "$1")
   mkdir -p -- "$results/$name"
   : >"$results/$name/values"
@@ -99,12 +122,18 @@ check() { # folder of an example; runs what its page says, unless this code has 
     fi
     values_of "$folder/report.json" "$number" >>"$results/$name/values"
   done 9< <(runs_of "$page")
-  ((number > 0)) || { printf '%s: the page marks no figures\n' "$name" && return 0; }
-  compare "$results/$name/values" "$page" >"$results/$name/README.md" || wrong=1
-  if ((wrong)) && [[ $remake == false ]]; then
-    printf '%s: figures differ; --remake writes them\n' "$name"
+  compare "$results/$name/values" "$page" >"$results/$name/README.md" || wrong=$?
+  if ((wrong == 2)) || { ((wrong)) && [[ $remake == false ]]; }; then
+    printf '%s: figures %s\n' "$name" "$( ((wrong == 2)) && printf 'are missing' || printf 'differ; --remake writes them')"
     return 8
   fi
+  while read -r run from to; do
+    folder=$results/$name/$run
+    if [[ ! -f $folder/$from ]]; then
+      printf '%s: run %s draws no picture %s\n' "$name" "$run" "$from" && return 8
+    fi
+    [[ $remake == false && $state == current ]] || cmp -s -- "$folder/$from" "$1/$to" || cp -- "$folder/$from" "$1/$to"
+  done < <(pictures_of "$page")
   printf '<!-- figures of code %s -->\n' "$code" >>"$results/$name/README.md"
   cmp -s -- "$results/$name/README.md" "$page" || cp -- "$results/$name/README.md" "$page"
   printf '%s: %s\n' "$name" "$( ((wrong)) && printf 'figures written' || printf 'figures are those of this code')"
@@ -114,7 +143,7 @@ mark() { # a copy of examples
   local page note
   for page in "$1"/*/README.md; do
     case $(state_of "$root/examples/$(basename -- "$(dirname -- "$page")")/README.md") in
-      current) continue ;;
+      current | none) continue ;;
       older) note="The figures of this page come from older code." ;;
       unmarked) note="The figures of this page are not checked by machine and may come from older code." ;;
     esac
@@ -144,7 +173,8 @@ if ((${#names[@]} == 0)); then
   for page in "$root"/examples/*/README.md; do
     printf '%-22s %s\n' "$(basename -- "$(dirname -- "$page")")" "$(state_of "$page")"
   done
-  printf '\nolder: ./cdem figures NAME checks them, with --remake writes them. unmarked: no number says which figure it is.\n'
+  printf '\nolder: ./cdem figures NAME checks them, with --remake writes them. none: the page has none. %s\n' \
+    'unmarked: no number says which figure it is.'
   exit 0
 fi
 result=0

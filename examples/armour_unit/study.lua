@@ -10,6 +10,8 @@ local groups = cdem.parameter{ name = "groups", default = "cases", choices = {"c
                                doc = "cases: the six, hold and ramp; sensitivity: of case 1; meshes: the six with three meshes" }
 local fineness = cdem.parameter{ name = "fineness", default = 16.5, range = {3, 60},
                                  doc = "height over the edge length of the tetrahedra" }
+local toughness = cdem.parameter{ name = "fracture_energy", default = 0.0, range = {0, 1e6}, unit = "J/m2",
+                                  doc = "above 0: of cohesive units instead of brittle ones" }
 local finenesses = cdem.parameter{ name = "finenesses", default = {10.0, 12.5, 16.5}, range = {3, 60},
                                    doc = "of the meshes compared" }
 
@@ -21,6 +23,7 @@ local modes = {"hold", "ramp"}
 local runs, settings = {}, {}
 local function add(key, changes)
   local set = { case = 1, mode = "hold", fineness = fineness, pictures = false }
+  if toughness > 0 then set.bonds, set.fracture_energy = "cohesive", toughness end
   for name, value in pairs(changes) do set[name] = value end
   runs[#runs + 1], settings[#settings + 1] = key, set
 end
@@ -74,8 +77,9 @@ end
 -- Young's modulus that bonds on every face leave, from a pulled prism of the same material.
 local function effective_modulus(beta)
   local model = cdem.model{ bodies = { {
-    shape = cdem.box_mesh{ size = {1, 1, 2}, divisions = {4, 4, 8}, jitter = 0.15 }, stiffness_ratio = beta,
+    shape = cdem.box_mesh{ size = {1, 1, 2}, divisions = {4, 4, 8}, jitter = 0.15 }, bonds = "springs",
     material = cdem.elastic{ youngs_modulus = unit.youngs_modulus, poissons_ratio = unit.poissons_ratio, density = unit.density },
+    stiffness_ratio = beta,
     joint = cdem.mohr_coulomb{ cohesion = unit.cohesion, friction_angle = unit.friction_angle,
                                tensile_strength = unit.tensile_strength } } } }
   model:fix{ on = "z-", axes = "z" }
@@ -98,6 +102,8 @@ if wanted.cases then
               unit = "m/s", reference = paper[n], kind = "paper", source = "Feng 2014 table 2, without ramp rate or criterion" }
     end
     local hold = found["case " .. n .. " hold"]
+    figure{ name = "case_" .. n .. "_first_break_m_per_s", value = hold.figures["case_" .. n .. "_first_break_hold_m_per_s"],
+            unit = "m/s" }
     figure{ name = "case_" .. n .. "_place", value = hold.figures["case_" .. n .. "_place"], reference = case.place,
             kind = "paper", source = "Feng 2014 section 3.3, in words" }
     if velocity("case " .. n .. " hold", n, "hold") then -- not where a run failed, or was only checked
@@ -113,8 +119,6 @@ if wanted.cases then
   end
   cdem.chart{ file = "velocity_displacement.png", title = "Six set-ups, hold", x_label = "velocity of the flow (m/s)",
               y_label = "mean displacement under the flow (m)", y_range = {0, 2e-3}, series = curves, legend = "top_left" }
-  figure{ name = "effective_modulus_over_E", value = effective_modulus(10) / unit.youngs_modulus, reference = 1 / (1 + 1 / 10),
-          kind = "formula", source = "1 / (1 + 1 / beta), beta = 10", tolerance = 0.05 }
   local one = found["case 1 hold"].figures
   figure{ name = "tets", value = one.tets, reference = 9817, kind = "paper", source = "a mesh of their own" }
   figure{ name = "nodes", value = one.nodes, reference = 2141, kind = "paper", source = "a mesh of their own" }
@@ -122,6 +126,8 @@ if wanted.cases then
 end
 
 if wanted.sensitivity then
+  figure{ name = "effective_modulus_over_E", value = effective_modulus(10) / unit.youngs_modulus, reference = 1 / (1 + 1 / 10),
+          kind = "formula", source = "1 / (1 + 1 / beta), beta = 10", tolerance = 0.05 }
   for _, mode in ipairs(modes) do
     local base = velocity("change none " .. mode, 1, mode)
     figure{ name = "unchanged_" .. mode .. "_m_per_s", value = base, unit = "m/s" }
@@ -142,8 +148,11 @@ if wanted.meshes then
         local key = "mesh " .. n .. " " .. mode .. " " .. f
         local run = found[key]
         if run then
-          figure{ name = string.format("case_%d_%s_%d_tets_m_per_s", n, mode, run.figures.tets),
-                  value = velocity(key, n, mode), unit = "m/s" }
+          figure{ name = string.format("case_%d_%s_fineness_%g_m_per_s", n, mode, f), value = velocity(key, n, mode),
+                  unit = "m/s" }
+          figure{ name = string.format("case_%d_%s_fineness_%g_first_break_m_per_s", n, mode, f),
+                  value = run.figures[string.format("case_%d_first_break_%s_m_per_s", n, mode)], unit = "m/s" }
+          if n == 1 and mode == "hold" then figure{ name = string.format("tets_fineness_%g", f), value = run.figures.tets } end
         end
       end
     end

@@ -125,6 +125,7 @@ local function watch(start_of_group, farthest)
 end
 local columns_of_units, movements = { { name = "unit", values = numbers } }, {}
 local first_out, damaged
+local figures = {}
 for k = 1, groups do
   local start_of_group, farthest = places(), {}
   local began = cdem.elapsed()
@@ -148,6 +149,10 @@ for k = 1, groups do
   local at = string.format("ns_%g", ns[k])
   columns_of_units[#columns_of_units + 1] = { name = "movement_over_dn_" .. at, values = moved }
   columns_of_units[#columns_of_units + 1] = { name = "rocking_over_dn_" .. at, values = rocking }
+  for name, value in pairs{ units_left = gone, n_od = nod, largest_movement_over_dn = largest, mean_movement_over_dn = mean,
+                            largest_rocking_over_dn = rocked, units_broken = broken * count } do
+    figures[#figures + 1] = { name = name .. "_" .. at, value = value }
+  end
   movements[k] = { name = string.format("Ns = %g", ns[k]), x = numbers, y = moved, style = "both" }
   cdem.log(string.format("Ns = %.2f, H = %.2f m: %d units have left, %d stayed away, N_od = %.2f, largest movement %.2f Dn, "
                          .. "mean %.3f Dn, rocking %.3f Dn%s", ns[k], ns[k] * (concrete.density / sea - 1) * Dn, gone,
@@ -182,13 +187,13 @@ if #breaking.time > 1 then
   cdem.chart{ file = "breaking.png", title = "Units that are broken", x_label = "time (s)", y_label = "share",
               series = { { name = "broken", x = breaking.time, y = breaking.share } } }
 end
+table.sort(figures, function(a, b) return a.name < b.name end)
+cdem.report(figures)
 cdem.report{
   { name = "kinetic_ratio_at_rest", value = settled.kinetic_ratio },
   { name = "first_unit_out_ns", value = first_out, reference = 3.7, kind = "paper",
     source = "Van der Meer 1988: start of damage of Accropodes" },
   { name = "damage_ns", value = damaged, reference = 4.1, kind = "paper", source = "Van der Meer 1988: failure" },
-  { name = "largest_movement_over_dn", value = rows.largest[#rows.largest] },
-  { name = "largest_rocking_over_dn", value = rows.rocked[#rows.rocked] },
   { name = "broken_share", value = breakable and rows.broken[#rows.broken] or nil },
   { name = "run_up", value = water.run_up - level, unit = "m" },
   { name = "run_down", value = water.run_down - level, unit = "m" },

@@ -86,6 +86,7 @@ for i, size in ipairs(sizes) do
   add("peak_over_mohr_coulomb", curve.stress[at] / strength,
       { reference = 1, kind = "formula", tolerance = 0.1, source = "2 c tan(45 + phi / 2)" })
   add("stress_at_the_end_over_peak", curve.stress[last] / curve.stress[at])
+  add("least_stress_after_peak_over_peak", math.min(table.unpack(curve.stress, at)) / curve.stress[at])
   add("kinetic_over_elastic_at_peak", curve.kinetic[at] / math.max(curve.elastic[at], 1e-12))
   add("crack_energy_over_G_II_section", curve.breaking[last] / (shear_energy * width ^ 2))
   add("friction_over_crack_energy", curve.friction[last] / math.max(curve.breaking[last], 1e-12))

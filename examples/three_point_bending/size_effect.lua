@@ -45,6 +45,7 @@ for i, depth in ipairs(depths) do
   local name = string.format("_d_%g_mm", depth * 1e3)
   figures[#figures + 1] = { name = "nominal_strength_Pa" .. name, value = nominal[i], unit = "Pa", reference = wanted,
                             kind = "fe", source = "fictitious crack on the ligament" }
+  figures[#figures + 1] = { name = "over_fictitious_crack" .. name, value = nominal[i] / wanted }
   figures[#figures + 1] = { name = "over_LEFM" .. name, value = nominal[i] / brittle(depth) }
   figures[#figures + 1] = { name = "over_plastic_ligament" .. name, value = nominal[i] / plastic }
   figures[#figures + 1] = { name = "tetrahedra" .. name, value = model:counts().tets }

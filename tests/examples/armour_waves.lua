@@ -12,7 +12,7 @@ for _, run in ipairs(result) do
 end
 expect.between(result[2].figures, "broken_share", 0, 0)
 result = result[1]
-expect.between(result.figures, "largest_movement_over_dn", 0, 0.2)
+expect.between(result.figures, "largest_movement_over_dn_ns_2.5", 0, 0.2)
 expect.between(result.figures, "run_up", 0.5, 10)
 expect.between(result.figures, "deepest_contact_over_height", 0, 0.01)
 expect.between(result.figures, "energy_balance_error", 0, 0.01)
