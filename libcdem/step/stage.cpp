@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/bond/release.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
@@ -9,6 +10,7 @@
 #include "libcdem/results/free_surface.hpp"
 #include "libcdem/results/picture_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/record.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 
@@ -72,9 +74,9 @@ double relative_residual(const NodeSums& sums) {
 Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
       threads_(useful_threads(context.model, context.threads)), contacts_(context),
-      watch_(StrengthWatch::of(context.model)), has_shared_nodes_(has_shared_nodes(context.model)),
-      kind_(std::move(kind)), run_away_(run_away), broken_tension_before_(context.log.broken_tension),
-      broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()),
+      watch_(StrengthWatch::of(context.model)), kind_(std::move(kind)), run_away_(run_away),
+      broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
+      start_(std::chrono::steady_clock::now()),
       progress_(context.observer, context.log, context.from ? context.from->step : 0) {
   start_watch();
   (void)instruction_set(); // a bad name of one is told of here, not by a thread
@@ -103,7 +105,7 @@ Stage::~Stage() {
     shared_->shares().gather_on_lead(context_.last_good);
 }
 
-double Stage::update_contacts(double safety) {
+double Stage::update_contacts() {
   times_.end(StepLine::others);
   const std::int64_t searches = work.contact.searches;
   contacts_.evaluate(context_, work.contact, context_.log);
@@ -204,7 +206,7 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
     BegunCracks begun;
     if (breaking_ && !context_.model.mesh.sides.empty()) {
       work.near.forget();
-      begun = begin_cracks();
+      begun = begun_cracks();
     }
     if (shared_) {
       std::int64_t tellers = has_to_tell(work, begun) ? 1 : 0;
@@ -273,10 +275,10 @@ void Stage::look_for_escapes() {
   update_external(work.resolved, context_.state.time, moving());
 }
 
-void Stage::watch(const StepReport& report) {
+void Stage::watch() {
   if (std::exchange(sampled_start_, false))
     context_.log.history.back().residual = report.residual;
-  record_step(report);
+  record_step();
   if (!finite(report.sums)) {
     see_whole();
     require_sound(context_.model, context_.state, run_away_, here());
@@ -297,16 +299,16 @@ void Stage::watch(const StepReport& report) {
     update_external(work.resolved, context_.state.time, moving());
   }
   if (context_.log.due(context_.state.step))
-    sample(report);
+    sample();
   if (is_due(look_every) && !context_.log.watches.empty()) {
     see_whole();
     look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   }
   times_.end(StepLine::watch);
-  poll(report);
+  poll();
 }
 
-void Stage::record_step(const StepReport& report) {
+void Stage::record_step() {
   const Model& model = context_.model;
   EnergyLedger& spent = context_.state.spent;
   broken_in_step_ = std::exchange(broken_between_, 0);
@@ -337,7 +339,7 @@ void Stage::release_parted_blocks() {
     work.contact.told_due[block] |= released.blocks[block];
 }
 
-void Stage::poll(const StepReport& step_report) {
+void Stage::poll() {
   if (step % poll_every == 0) {
     CheckpointWriter* const checkpoints = context_.checkpoints;
     if (context_.observer.stop_requested()) {
@@ -348,11 +350,11 @@ void Stage::poll(const StepReport& step_report) {
     if (checkpoints && checkpoints->wanted())
       checkpoints->write(false);
     if (progress_.due())
-      report(step_report, false);
+      tell(false);
     show();
   }
   if (step == 1 || (context_.from && step == context_.from->step + 1))
-    report(step_report, false);
+    tell(false);
 }
 
 void Stage::show() {
@@ -371,16 +373,16 @@ void Stage::show() {
   context_.observer.view(shown);
 }
 
-StageResult Stage::finish(const StepReport& step_report) {
+StageResult Stage::finish() {
   look_over();
   see_whole();
   look_at_units(context_.model, context_.state, context_.conditions, context_.log);
-  sample(step_report);
+  sample();
   times_.end(StepLine::watch);
-  report(step_report, true);
+  tell(true);
   if (!kept_end_)
     keep_last_good(); // last: whoever ends a stage before goes on from the restart point and the state that stood there
-  return {step, step_report.residual, context_.log.broken_tension - broken_tension_before_,
+  return {step, report.residual, context_.log.broken_tension - broken_tension_before_,
           context_.log.broken_shear - broken_shear_before_, wall_time()};
 }
 
@@ -397,7 +399,7 @@ void Stage::sample_start() {
   sampled_start_ = true;
 }
 
-void Stage::sample(const StepReport& report) {
+void Stage::sample() {
   std::optional<SynchronisedView> view;
   if (!context_.log.probes.empty())
     view.emplace(*this, SynchronisedView::Of::whole);
@@ -407,7 +409,7 @@ void Stage::sample(const StepReport& report) {
                  report.residual, report.sums.kinetic);
 }
 
-void Stage::report(const StepReport& report, bool last) {
+void Stage::tell(bool last) {
   Progress progress = report.goals;
   progress.stage = context_.number;
   progress.kind = kind_;

@@ -1,6 +1,7 @@
 // Places of a stage where the model becomes another one: nodes of cohesive bodies are freed, interfaces that have slid get
 // new springs. What is known of the model before is carried over or made anew, and the stage can be left there.
 #include "libcdem/bond/release.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/fracture/renew_interfaces.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/results/energy.hpp"
@@ -30,7 +31,7 @@ std::vector<int> new_nodes_of_unchanged(const Model& before, const Model& now) {
 
 bool Stage::split_nodes(double time_step) {
   time_step_ = time_step;
-  if (watch_.empty() || !context_.changing)
+  if (!breaking || watch_.empty() || !context_.changing)
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
@@ -55,7 +56,8 @@ bool Stage::split_nodes(double time_step) {
 }
 
 bool Stage::join_nodes() {
-  if (watch_.empty() || !context_.changing || context_.renumbered || !is_due(watch_every))
+  if (!breaking || !in_real_time || watch_.empty() || !context_.changing || context_.renumbered ||
+      !is_due(watch_every))
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
@@ -111,7 +113,6 @@ void Stage::change_nodes(Freed freed) {
   }
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact, false);
-  has_shared_nodes_ = has_shared_nodes(model);
   if (!scale_masses)
     carry_water();
   update_external(work.resolved, state.time, moving());
@@ -126,7 +127,11 @@ void Stage::change_nodes(Freed freed) {
 void Stage::start_watch() {
   work.watch = watch_.empty() ? nullptr : &watch_;
   work.near = {};
-  work.near.bits.assign(context_.model.mesh.batches.size(), NearStrength::may_crack);
+  const MeshData& mesh = context_.model.mesh;
+  work.near.bits.assign(mesh.batches.size(), NearStrength::may_crack);
+  has_shared_nodes_ = std::any_of(mesh.chunks.begin(), mesh.chunks.end(), [](const MeshChunk& chunk) {
+    return !chunk.stars && chunk.inner_end < chunk.nodes.end;
+  });
 }
 
 std::vector<std::uint8_t> Stage::near_of_all() const {
@@ -155,7 +160,7 @@ void Stage::take_near(std::vector<std::uint8_t> of_all) {
   std::fill(bits + begin[rank + 1], work.near.bits.end(), NearStrength::may_crack);
 }
 
-BegunCracks Stage::begin_cracks() {
+BegunCracks Stage::begun_cracks() {
   const Model& model = context_.model;
   State& state = context_.state;
   const Range chunks = work.mesh_chunks(model);

@@ -6,7 +6,7 @@
 
 namespace cdem {
 
-void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
+void Stage::keep_restart_point(std::vector<double> loop_state) {
   if (can_be_left())
     share_anew();
   keep_last_good();
@@ -18,7 +18,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
     return;
   point.step = step;
   point.wall_time = wall_time();
-  note(point, std::move(loop_state), previous_force);
+  note(point, std::move(loop_state));
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
   contacts_.start_anew(context_.model, work.contact, true);
@@ -34,12 +34,12 @@ void Stage::keep_end(std::vector<double> loop_state) {
   keep_last_good();
   kept_end_ = true;
   RestartPoint point;
-  note(point, std::move(loop_state), {});
+  note(point, std::move(loop_state));
   *context_.restart_point = std::move(point);
 }
 
-void Stage::note(RestartPoint& point, std::vector<double> loop_state,
-                 const std::vector<Node>& previous_force) const {
+void Stage::note(RestartPoint& point, std::vector<double> loop_state) const {
+  const std::vector<Node> none, &previous_force = carried ? *carried : none;
   point.begun = true;
   point.breaks = context_.log.breaks.size();
   point.one_way = context_.log.one_way;
