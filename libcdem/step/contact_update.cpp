@@ -36,7 +36,7 @@ void ContactUpdate::evaluate(const StageContext& context, ContactWork& work, Run
   if (sums.deepest > deepest_.deepest)
     deepest_ = sums;
   if (looks && !work.due && (sums.contacts != contacts_before_ || context.state.step % meetings_every == 0)) {
-    strike_out_met(context.model, context.state, log, work.shared != nullptr);
+    strike_out_met(context.model, context.state, log);
     contacts_before_ = sums.contacts;
   }
 }
