@@ -205,7 +205,7 @@ public:
   }
 
   void take_contacts(double /*longest_step*/) override { masses_.follow(model_, stage_.work.contact); }
-  void update_loads() override { stage_.update_loads_at_rest(); }
+  void update_loads() override { stage_.update_loads(nullptr); }
 
   void move(Range range, const Node* force, NodeSums& sums) override {
     const auto nodes = [&](Range part) {
@@ -222,7 +222,6 @@ public:
   void move_rigid(int rigid, NodeSums& sums) override {
     hold_rigid(model_, state_, stage_.work.acting(), rigid, sums);
   }
-  void place_rigid(int /*rigid*/) override {}
 
   void end_step() override {
     double& reaction2 = stage_.report.sums.reaction2;

@@ -170,7 +170,7 @@ public:
     if (scaled_.on())
       stage_.scale_masses = [this] { scaled_.scale(); };
     else
-      stage_.carry_water();
+      stage_.carry_water(stage_.work.resolved.water_mass);
   }
 
   RunResult solve() {
@@ -178,7 +178,7 @@ public:
     if (!context_.procedure_state)
       stage_.keep_end(numbers(stage_.step));
     if (!scaled_.on())
-      stage_.drop_water();
+      stage_.carry_water({});
     RunResult result{stage_.finish(), state_.time, stepping_.time_step, {}};
     if (scaled_.on()) {
       if (!stage_.is_due(watch_every))
@@ -221,7 +221,7 @@ public:
     lead_supports();
     // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
     stepping_.kick = state_.velocity_lag + 0.5 * stepping_.time_step;
-    stage_.update_loads(state_.time, stepping_);
+    stage_.update_loads(&stepping_);
     stage_.work.bond.damping_step = stepping_.time_step;
   }
 

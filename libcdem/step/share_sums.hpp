@@ -15,7 +15,7 @@ bool has_to_tell(const Workspace&, const BegunCracks&);
 // The reliefs of all ranks, for all; a rank needs those of the tets that it computes or reads.
 void share_reliefs(BegunCracks&);
 
-// tellers: of how many ranks that is so. Does nothing where one rank computes all.
+// tellers: of how many ranks that is so.
 void share_sums(Workspace&, BegunCracks&, std::int64_t tellers);
 
 } // namespace cdem

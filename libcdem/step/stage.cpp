@@ -89,20 +89,16 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     go_on_from(*context_.from);
   else
     keep_start_of_loop(context_);
-  if (shared_) {
-    keep_last_good();
-    give_back();
-  } else {
-    note_last_good();
-  }
+  keep_last_good();
+  give_back();
 }
 
 Stage::~Stage() {
   if (left_alone())
     return;
   synchronise();
-  if (shared_ && std::uncaught_exceptions() > exceptions_) // the last good state is written
-    shared_->shares().gather_on_lead(context_.last_good);
+  if (std::uncaught_exceptions() > exceptions_) // the last good state is written
+    work.shared->shares().gather_on_lead(context_.last_good);
 }
 
 double Stage::update_contacts() {
@@ -115,30 +111,30 @@ double Stage::update_contacts() {
   return longest;
 }
 
-void Stage::update_loads(double time, const Stepping& stepping) {
-  time_step_ = stepping.time_step; // it may have become shorter since nodes were split
-  advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
-  update_supports(work.resolved, time + 0.5 * stepping.time_step);
-  advance_bolts();
-  update_external(work.resolved, time, &context_.state.velocity);
+void Stage::update_loads(const Stepping* stepping) {
+  ResolvedConditions& r = work.resolved;
+  const double time = context_.state.time;
+  if (stepping) {
+    time_step_ = stepping->time_step; // it may have become shorter since nodes were split
+    advance_columns(r, context_.state, {time, stepping->time_step, stepping->kick});
+    update_supports(r, time + 0.5 * stepping->time_step);
+  } else if (r.bolts.empty()) {
+    return;
+  }
+  if (!r.bolts.empty())
+    advance_bolts(r.bolts, context_.state, r.varying[r.bolt_load].forces);
+  update_external(r, time, moving());
   times_.end(StepLine::loads);
 }
 
 double Stage::update_crack_pressures(double stable) {
   std::vector<CrackLoad>& cracks = work.resolved.cracks;
-  cdem::update_crack_pressures(context_.model, context_.state, shared_.get(), context_.state.time, cracks);
+  cdem::update_crack_pressures(context_.model, context_.state, work.part().mesh_chunks(), context_.state.time,
+                               cracks);
   return crack_time_step(cracks, stable);
 }
 
-void Stage::carry_water() {
-  carry(work.resolved.water_mass);
-}
-
-void Stage::drop_water() {
-  carry({});
-}
-
-void Stage::carry(const std::vector<double>& water) {
+void Stage::carry_water(const std::vector<double>& water) {
   State& state = context_.state;
   if (water.empty() && state.moving_mass.empty())
     return;
@@ -150,19 +146,6 @@ void Stage::carry(const std::vector<double>& water) {
   const double before = kinetic_energy(context_.model, state);
   state.moving_mass = std::move(masses);
   state.spent.external += kinetic_energy(context_.model, state) - before;
-}
-
-void Stage::update_loads_at_rest() {
-  if (work.resolved.bolts.empty())
-    return;
-  advance_bolts();
-  update_external(work.resolved, context_.state.time, moving());
-  times_.end(StepLine::loads);
-}
-
-void Stage::advance_bolts() {
-  if (ResolvedConditions& r = work.resolved; !r.bolts.empty())
-    cdem::advance_bolts(r.bolts, context_.state, r.varying[r.bolt_load].forces);
 }
 
 void Stage::end_step(double time_step) {
@@ -194,25 +177,21 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
   std::int64_t broken = 0;
   work.hand_over_due = is_due(hand_over_every);
   if (work.strain_step > 0) {
-    if (shared_)
-      shared_->parted(context_.state);
-    for_chunks(work.mesh_chunks(context_.model), context_.threads, [&](std::int64_t c) {
+    work.shared->parted(context_.state);
+    for_chunks(work.part().mesh_chunks(), context_.threads, [&](std::int64_t c) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
         mesh_forces(context_.model, context_.state, work, c, breaking_);
     });
     work.strain_step = 0;
-    if (shared_)
-      shared_->share_nodes(context_.state); // for the stress beside faces of others
+    work.shared->share_nodes(context_.state); // for the stress beside faces of others
     BegunCracks begun;
     if (breaking_ && !context_.model.mesh.sides.empty()) {
       work.near.forget();
       begun = begun_cracks();
     }
-    if (shared_) {
-      std::int64_t tellers = has_to_tell(work, begun) ? 1 : 0;
-      ranks().sum(&tellers, 1);
-      share_sums(work, begun, tellers);
-    }
+    std::int64_t tellers = has_to_tell(work, begun) ? 1 : 0;
+    ranks().sum(&tellers, 1);
+    share_sums(work, begun, tellers);
     // Faces break and slide to where the nodes are too; the next step finds nothing left to do.
     broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1) +
              record_begun_cracks(context_.model, context_.state, begun, log, context_.number, step - 1);
@@ -249,7 +228,7 @@ void Stage::look_over() {
 
 // Each rank looks at its share; what is wrong is told of by all, as one that sees everything.
 void Stage::require_sound_state() {
-  if (shared_ && !ranks().any(!share_is_sound(context_.model, context_.state, work, run_away_)))
+  if (!ranks().alone() && !ranks().any(!share_is_sound(context_.model, context_.state, work, run_away_)))
     return;
   see_whole();
   require_sound(context_.model, context_.state, run_away_, here());
@@ -257,7 +236,7 @@ void Stage::require_sound_state() {
 }
 
 void Stage::look_for_escapes() {
-  if (shared_ && !ranks().any(any_is_out(context_.model, context_.state, escapes, shared_->part().nodes())))
+  if (!ranks().any(any_is_out(context_.model, context_.state, escapes, work.part().nodes())))
     return;
   see_whole();
   bool holds = false;
@@ -295,7 +274,7 @@ void Stage::watch() {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
     if (in_real_time && !scale_masses)
-      carry_water();
+      carry_water(work.resolved.water_mass);
     update_external(work.resolved, context_.state.time, moving());
   }
   if (context_.log.due(context_.state.step))
@@ -362,8 +341,7 @@ void Stage::show() {
     return;
   PictureWish wish;
   wish.field = context_.observer.wanted_field();
-  if (shared_)
-    ranks().broadcast(wish.field); // rank 0 draws
+  ranks().broadcast(wish.field); // rank 0 draws
   const SynchronisedView view(*this,
                               needs_whole(wish) ? SynchronisedView::Of::whole : SynchronisedView::Of::shares);
   Snapshot shown = make_picture_snapshot(context_.model, context_.state, wish, "");
@@ -422,7 +400,7 @@ void Stage::tell(bool last) {
         times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew: {}", shared_anew_) : "");
   if (details)
     details(progress);
-  if (shared_)
+  if (!loads_.empty())
     progress.note += (progress.note.empty() ? "" : ", ") + ("loads of the ranks " + loads_);
   progress_(std::move(progress), last);
 }

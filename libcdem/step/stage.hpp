@@ -74,9 +74,8 @@ public:
   // Pressures in cracks at this time. Returns the longest stable step, s, that pumped fluids leave to a mesh whose own is
   // `stable`.
   double update_crack_pressures(double stable);
-  // Updates loads, supports that vary and free fields for the step that begins at `time` (s).
-  void update_loads(double time, const Stepping&);
-  void update_loads_at_rest(); // in a relaxation: of what follows the rock
+  // Loads, supports that vary and free fields for the step that begins; null: of a relaxation, what follows the rock.
+  void update_loads(const Stepping*);
   std::int64_t broken_in_step() const { return broken_in_step_; }
 
   // The end of the stage as a point from which another one may go on, which calls its first step 0. Before finish.
@@ -84,9 +83,8 @@ public:
   // To the state that was kept last, after an error.
   void go_back();
   // In real time the water that moves with the nodes (load/water_forces.hpp) adds to their inertia; the kinetic energy
-  // that changes with it is work of the water. Not beside scaled masses.
-  void carry_water();
-  void drop_water();    // at the end of a stage
+  // that changes with it is work of the water. Not beside scaled masses. water: kg (n_nodes); empty: none any more.
+  void carry_water(const std::vector<double>& water);
   StageResult finish(); // what results read, last history row and progress
 
   // The state of all ranks, for who looks at the whole of it, or at what a search for contacts reads and an array by node beside it.
@@ -134,7 +132,6 @@ private:
   bool left_alone() const;    // by an error that the other ranks, which are elsewhere, do not have
   void require_sound_state(); // Throws SolutionError
   void keep_last_good();      // of this rank's share
-  void note_last_good();      // what goes with it
   void give_back();           // memory of what other ranks own
   void synchronise_contacts(RunLog&);
   std::int64_t synchronise_stress(RunLog&);      // returns how many springs broke, of which the log is told
@@ -143,8 +140,6 @@ private:
   void take_near(std::vector<std::uint8_t> of_all);
   void change_nodes(Freed);
 
-  void advance_bolts();
-  void carry(const std::vector<double>& water); // kg (n_nodes); empty: none
   // m/s, of the nodes, for loads that depend on it; null in a relaxation, whose velocities are lengths per step.
   const std::vector<Node>* moving() const { return in_real_time ? &context_.state.velocity : nullptr; }
   double wall_time() const; // s
@@ -159,9 +154,8 @@ private:
   void show();             // to an observer who wants to see the model
 
   StageContext context_;
-  std::unique_ptr<SharedState> shared_; // null where this rank is alone
-  bool sampled_start_ = false;          // the last row of the history waits for its residual
-  bool gave_back_ = false;              // since it was last shared
+  bool sampled_start_ = false; // the last row of the history waits for its residual
+  bool gave_back_ = false;     // since it was last shared
   int exceptions_ = std::uncaught_exceptions();
   int shared_anew_ = 0; // how often
   std::string loads_;   // of the ranks, when they were last counted

@@ -44,18 +44,11 @@ void Stage::note(RestartPoint& point, std::vector<double> loop_state) const {
   point.breaks = context_.log.breaks.size();
   point.one_way = context_.log.one_way;
   point.loop_state = std::move(loop_state);
-  if (shared_) {
-    const StateShares& shares = shared_->shares();
-    StateShares::copy(previous_force, point.previous_force, shares.nodes());
-    StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
-    StateShares::copy(work.bond.stretch, point.stretch, shares.points());
-    StateShares::copy(work.bond.viscous, point.viscous, shares.points());
-  } else {
-    point.previous_force = previous_force;
-    point.spring_force = work.bond.spring_force;
-    point.stretch = work.bond.stretch;
-    point.viscous = work.bond.viscous;
-  }
+  const StateShares& shares = work.shared->shares();
+  StateShares::copy(previous_force, point.previous_force, shares.nodes());
+  StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
+  StateShares::copy(work.bond.stretch, point.stretch, shares.points());
+  StateShares::copy(work.bond.viscous, point.viscous, shares.points());
   point.contact_step = work.contact.last_step;
   point.strain_step = work.strain_step;
   point.near = work.near.crack_known ? near_of_all() : std::vector<std::uint8_t>();
@@ -64,7 +57,6 @@ void Stage::note(RestartPoint& point, std::vector<double> loop_state) const {
 }
 
 void Stage::go_on_from(const RestartPoint& from) {
-  context_.last_good = context_.state;
   if (context_.restart_point)
     *context_.restart_point = from;
   step = from.step;

@@ -25,9 +25,9 @@ public:
   // Nodes, all code that reads their positions has run; `force`: of elements and springs, N, beginning with the first.
   virtual void move(Range nodes, const Node* force, NodeSums&) = 0;
   virtual void move_rigid(int rigid, NodeSums&) = 0;
-  virtual void place_rigid(int rigid) = 0; // its nodes, where it is; in real time only
-  virtual void end_step() = 0;             // everything has moved on
-  virtual void judge() = 0;                // the step that has been watched
+  virtual void place_rigid(int /*rigid*/) {} // its nodes, where it is; in real time only
+  virtual void end_step() = 0;               // everything has moved on
+  virtual void judge() = 0;                  // the step that has been watched
 };
 
 } // namespace cdem

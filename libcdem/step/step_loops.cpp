@@ -22,8 +22,7 @@ static_assert(n_members * sizeof(double) == sizeof(NodeSums), "all of them are s
 // Over all chunks and rigid bodies of all ranks, exactly, then rounded. tellers: a number that is summed over the ranks in
 // the same message.
 NodeSums sums_of(const Workspace& work, std::int64_t& tellers) {
-  const Range own =
-      work.shared ? work.shared->part().chunks() : Range{0, static_cast<std::int64_t>(work.node_sums.size())};
+  const Range own = work.part().chunks();
   using Exact = ExactSums<n_members>;
   Exact exact;
   const auto add = [&](const NodeSums& sums) {
@@ -34,16 +33,14 @@ NodeSums sums_of(const Workspace& work, std::int64_t& tellers) {
   for (std::int64_t c = own.begin; c < own.end; ++c)
     add(work.node_sums[c]);
   for (int rigid = 0; rigid < static_cast<int>(work.rigid_sums.size()); ++rigid)
-    if (!work.shared || work.shared->moves(rigid))
+    if (work.shared->moves(rigid))
       add(work.rigid_sums[rigid]);
-  if (work.shared) {
-    std::array<std::int64_t, Exact::size() + 1> told;
-    std::copy_n(exact.data(), Exact::size(), told.begin());
-    told.back() = tellers;
-    ranks().sum(told.data(), told.size());
-    std::copy_n(told.begin(), Exact::size(), exact.data());
-    tellers = told.back();
-  }
+  std::array<std::int64_t, Exact::size() + 1> told;
+  std::copy_n(exact.data(), Exact::size(), told.begin());
+  told.back() = tellers;
+  ranks().sum(told.data(), told.size());
+  std::copy_n(told.begin(), Exact::size(), exact.data());
+  tellers = told.back();
   NodeSums sum;
   for (std::size_t i = 0; i < n_members; ++i)
     sum.*members[i] = exact.value(i);
@@ -59,8 +56,7 @@ std::int64_t stars_of(const Model& model) {
 void Stage::begin_forces() {
   breaking_ = breaking;
   work.hand_over_due = is_due(hand_over_every);
-  if (shared_)
-    shared_->parted(context_.state);
+  work.shared->parted(context_.state);
 }
 
 void Stage::begin_cracks() {
@@ -74,10 +70,9 @@ void Stage::begin_cracks() {
 void Stage::bond_forces() {
   if (context_.model.point_chunks.empty())
     return;
-  for_chunks(work.point_chunks(context_.model), context_.threads,
+  for_chunks(work.part().point_chunks(), context_.threads,
              [&](std::int64_t c) { spring_forces(context_.model, context_.state, work.bond, c, breaking); });
-  if (shared_)
-    shared_->share_springs(work.bond.spring_force, work.bond.acting_force);
+  work.shared->share_springs(work.bond.spring_force, work.bond.acting_force);
   times_.end(StepLine::bonds);
 }
 
@@ -85,7 +80,7 @@ void Stage::bond_forces() {
 void Stage::element_forces(Procedure& by) {
   const Model& model = context_.model;
   const std::int64_t stars = stars_of(model);
-  const Range chunks = work.chunks(model);
+  const Range chunks = work.part().chunks();
   for_chunks(chunks.size(), context_.threads, [&](std::int64_t i) {
     const std::int64_t c = chunks.end - 1 - i;
     NodeSums sums;
@@ -109,8 +104,7 @@ void Stage::element_forces(Procedure& by) {
   });
   work.near.crack_known = breaking && work.watch;
   work.near.due_known = work.near.crack_known && work.strain_step > 0;
-  if (shared_)
-    shared_->share_partial_forces(work.partial);
+  work.shared->share_partial_forces(work.partial);
   times_.end(StepLine::elements);
 }
 
@@ -119,7 +113,7 @@ void Stage::shared_node_forces(Procedure& by) {
   if (!has_shared_nodes_)
     return;
   const Model& model = context_.model;
-  for_chunks(work.mesh_chunks(model), context_.threads, [&](std::int64_t c) {
+  for_chunks(work.part().mesh_chunks(), context_.threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (chunk.stars || is_rigid(model, chunk))
       return;
@@ -145,32 +139,21 @@ void Stage::rigid_bodies(Procedure& by) {
     by.move_rigid(body, sums);
     work.rigid_sums[body] = sums;
   };
-  const auto place = [&](int body) { by.place_rigid(body); };
-  if (shared_) {
-    each(shared_->moved_bodies(), move);
-    if (in_real_time) {
-      shared_->share_rigid(context_.state, work.rigid_angle);
-      each(shared_->placed_bodies(), place);
-    }
-  } else {
-    for_chunks(static_cast<std::int64_t>(context_.model.rigid.size()), context_.threads, [&](std::int64_t i) {
-      move(static_cast<int>(i));
-      if (in_real_time)
-        place(static_cast<int>(i));
-    });
+  each(work.shared->moved_bodies(), move);
+  if (in_real_time) {
+    work.shared->share_rigid(context_.state, work.rigid_angle);
+    each(work.shared->placed_bodies(), [&](int body) { by.place_rigid(body); });
   }
   times_.end(StepLine::rigid_bodies);
 }
 
 void Stage::sum_up() {
-  if (shared_)
-    shared_->share_nodes(context_.state);
+  work.shared->share_nodes(context_.state);
   std::int64_t tellers = has_to_tell(work, begun_) ? 1 : 0;
   report.sums = sums_of(work, tellers);
-  if (shared_) {
-    share_sums(work, begun_, tellers);
+  share_sums(work, begun_, tellers);
+  if (!work.shared->alone())
     times_.end(StepLine::ranks);
-  }
 }
 
 } // namespace cdem
