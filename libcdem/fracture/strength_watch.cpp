@@ -7,7 +7,7 @@
 #include "libcdem/model/build/freed_meshes.hpp"
 #include "libcdem/model/known_of_model.hpp"
 #include "libcdem/parallel/simd.hpp"
-#include "libcdem/ranks/shared_state.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
@@ -342,19 +342,8 @@ void StrengthWatch::look(const Model& model, const State& state, Range chunks, i
   near.crack_known = true;
 }
 
-namespace {
-
-Range own_chunks(const Model& model, const SharedState* shared) {
-  return shared ? shared->part().mesh_chunks()
-                : Range{0, static_cast<std::int64_t>(model.mesh.chunks.size())};
-}
-
-} // namespace
-
 std::vector<char> StrengthWatch::due(const Model& model, const State& state, const NearStrength& near,
-                                     const SharedState* shared, int threads, double ahead,
-                                     bool everywhere) const {
-  const Range own = own_chunks(model, shared);
+                                     Range own, int threads, double ahead, bool everywhere) const {
   std::vector<char> due(model.mesh.chunks.size(), 0);
   for_chunks(own, threads, [&](std::int64_t c) {
     if (!looks_at(c) || !has_held_faces(c))
@@ -375,8 +364,7 @@ std::vector<char> StrengthWatch::due(const Model& model, const State& state, con
   std::vector<std::int64_t> of_body(model.bodies.size(), 0);
   for (std::size_t c = 0; c < due.size(); ++c)
     of_body[model.blocks[model.mesh.chunks[c].block].body] += due[c];
-  if (shared)
-    ranks().sum(of_body.data(), of_body.size());
+  ranks().sum(of_body.data(), of_body.size());
   std::vector<char> bodies(of_body.size(), 0);
   std::transform(of_body.begin(), of_body.end(), bodies.begin(),
                  [](std::int64_t chunks) { return static_cast<char>(chunks > 0); });
@@ -384,10 +372,9 @@ std::vector<char> StrengthWatch::due(const Model& model, const State& state, con
 }
 
 std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
-                                         const std::vector<char>& bodies, const SharedState* shared,
-                                         int threads, double ahead) const {
+                                         const std::vector<char>& bodies, int threads, double ahead) const {
   std::vector<std::vector<int>> found(model.mesh.chunks.size());
-  for_chunks(own_chunks(model, shared), threads, [&](std::int64_t c) {
+  for_chunks(static_cast<std::int64_t>(found.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (!looks_at(c) || !has_held_faces(c) || !bodies[model.blocks[chunk.block].body])
       return;
@@ -404,22 +391,18 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
             found[c].push_back(model.tets[t][corner]);
     }
   });
-  std::string near(model.node_position.size(), 0);
+  std::vector<char> nodes(model.node_position.size(), 0);
   for (const std::vector<int>& of : found)
     for (const int node : of)
-      near[node] = 1;
-  std::vector<char> nodes(near.size(), 0);
-  for (const std::string& of_rank : shared ? ranks().gather(near) : std::vector<std::string>{near})
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      nodes[i] = nodes[i] || of_rank[i];
+      nodes[node] = 1;
   return nodes;
 }
 
-std::vector<char> StrengthWatch::to_join(const Model& model, const State& state, const SharedState* shared,
+std::vector<char> StrengthWatch::to_join(const Model& model, const State& state, Range own,
                                          int threads) const {
   const MeshData& mesh = model.mesh;
   std::vector<std::vector<int>> found(mesh.chunks.size()); // nodes that stay as they are, by their originals
-  for_chunks(own_chunks(model, shared), threads, [&](std::int64_t c) {
+  for_chunks(own, threads, [&](std::int64_t c) {
     if (!looks_at(c))
       return;
     const MeshChunk& chunk = mesh.chunks[c];
@@ -450,12 +433,10 @@ std::vector<char> StrengthWatch::to_join(const Model& model, const State& state,
   for (const std::vector<int>& of : found)
     for (const int original : of)
       staying[original] = 1;
-  if (shared) {
-    const std::vector<std::string> of_ranks = ranks().gather(staying);
-    for (const std::string& of_rank : of_ranks)
-      for (std::size_t i = 0; i < staying.size(); ++i)
-        staying[i] = static_cast<char>(staying[i] | of_rank[i]);
-  }
+  const std::vector<std::string> of_ranks = ranks().gather(staying);
+  for (const std::string& of_rank : of_ranks)
+    for (std::size_t i = 0; i < staying.size(); ++i)
+      staying[i] = static_cast<char>(staying[i] | of_rank[i]);
   std::vector<char> nodes(model.node_position.size(), 0);
   for (std::size_t b = 0; b < model.blocks.size(); ++b) {
     const Block& block = model.blocks[b];

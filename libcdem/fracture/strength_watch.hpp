@@ -18,8 +18,6 @@
 
 namespace cdem {
 
-class SharedState; // ranks/shared_state.hpp
-
 // Parts of its strength at which a face is freed: it is high time; it is freed with others.
 inline constexpr double due_at = 0.9, freed_at = 0.5;
 
@@ -59,15 +57,15 @@ public:
   void look(const Model&, const State&, Range chunks, int threads, NearStrength&) const; // at all of them
 
   // Per body, whether a face of it is due to be freed. ahead: s, two steps. everywhere: at every face, not only beside the tets known to be
-  // near. shared: with several ranks, which look at their own chunks each; null: all are looked at.
-  std::vector<char> due(const Model&, const State&, const NearStrength&, const SharedState* shared,
-                        int threads, double ahead, bool everywhere) const;
+  // near. own: chunks of the mesh that this rank looks at.
+  std::vector<char> due(const Model&, const State&, const NearStrength&, Range own, int threads, double ahead,
+                        bool everywhere) const;
   // Per node of the model, 1 for those of faces of these bodies above `freed_at` that are not freed yet, now or ahead.
-  std::vector<char> to_free(const Model&, const State&, const std::vector<char>& bodies,
-                            const SharedState* shared, int threads, double ahead) const;
+  std::vector<char> to_free(const Model&, const State&, const std::vector<char>& bodies, int threads,
+                            double ahead) const;
 
   // Per node of the model, 1 for those to be joined again, in blocks where many may be.
-  std::vector<char> to_join(const Model&, const State&, const SharedState* shared, int threads) const;
+  std::vector<char> to_join(const Model&, const State&, Range own, int threads) const;
 
 private:
   explicit StrengthWatch(const Model&);

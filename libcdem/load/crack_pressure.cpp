@@ -4,7 +4,7 @@
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/selection.hpp"
 #include "libcdem/parallel/exact_sum.hpp"
-#include "libcdem/ranks/shared_state.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/boundary.hpp"
 
@@ -71,10 +71,6 @@ void measure(const Model& model, const State& state, const CrackLoad& load, Rang
   }
 }
 
-Range all_mesh_chunks(const Model& model) {
-  return {0, static_cast<std::int64_t>(model.mesh.chunks.size())};
-}
-
 double pressure_of(const CrackLoad& load, double time, double volume) {
   const CrackPressure& given = load.given;
   const double p = given.volume
@@ -111,7 +107,7 @@ void require_cracks(const Model& model, const Selection& on) {
 
 double crack_volume(const Model& model, const State& state, const CrackLoad& load) {
   CrackMeasures measures;
-  measure(model, state, load, all_mesh_chunks(model), measures);
+  measure(model, state, load, {0, static_cast<std::int64_t>(model.mesh.chunks.size())}, measures);
   return measures.sums.value(0);
 }
 
@@ -132,16 +128,14 @@ CrackLoad resolve(const Model& model, const State& state, const CrackPressure& g
   return load;
 }
 
-void update_crack_pressures(const Model& model, const State& state, const SharedState* shared, double time,
+void update_crack_pressures(const Model& model, const State& state, Range own, double time,
                             std::vector<CrackLoad>& loads) {
   for (CrackLoad& load : loads) {
     CrackMeasures measures;
     if (load.given.volume) {
-      measure(model, state, load, shared ? shared->part().mesh_chunks() : all_mesh_chunks(model), measures);
-      if (shared) {
-        ranks().sum(measures.sums.data(), ExactSums<2>::size());
-        ranks().largest(&measures.thinnest, 1);
-      }
+      measure(model, state, load, own, measures);
+      ranks().sum(measures.sums.data(), ExactSums<2>::size());
+      ranks().largest(&measures.thinnest, 1);
       load.frequency2 =
           8 * load.given.bulk_modulus / load.given.reservoir * measures.sums.value(1) * measures.thinnest;
     }

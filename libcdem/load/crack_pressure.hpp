@@ -22,8 +22,6 @@
 
 namespace cdem {
 
-class SharedState; // ranks/shared_state.hpp
-
 struct CrackLoad {
   CrackPressure given;
   std::vector<char> faces; // batch * lanes + lane: 1 takes it
@@ -37,9 +35,8 @@ void require_cracks(const Model&, const Selection& on);
 
 CrackLoad resolve(const Model&, const State&, const CrackPressure&);
 
-// Pressures at `time`. shared: with several ranks, each measures its own cracks; null: this one measures all.
-void update_crack_pressures(const Model&, const State&, const SharedState* shared, double time,
-                            std::vector<CrackLoad>&);
+// Pressures at `time`. own: chunks of the mesh in which this rank measures cracks.
+void update_crack_pressures(const Model&, const State&, Range own, double time, std::vector<CrackLoad>&);
 
 // Adds the forces on the nodes of a chunk (N, per place), and to the sums their squares and their work in the last step.
 void add_crack_pressures(const Model&, const State&, const MeshChunk&, const std::vector<CrackLoad>&,

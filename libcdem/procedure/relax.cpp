@@ -8,12 +8,11 @@
 #include "libcdem/procedure/stability.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
-#include "libcdem/step/synchronised_view.hpp"
+#include "libcdem/step/step.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <utility>
 
 namespace cdem {
 namespace {
@@ -131,170 +130,202 @@ void stop(State& state) {
     rigid.velocity = rigid.angular_momentum = {};
 }
 
-// However a relaxation ends, it leaves the state at rest: its velocities are lengths per step of fictitious masses.
-struct AtRest {
-  Stage& stage;
-  State &state, &last_good;
-  const NodeSums& sums;
-  ~AtRest() {
-    stage.synchronise();
-    state.spent.fictitious += sums.kinetic;
-    stop(state);
-    stop(last_good);
+class Relaxation final : public Procedure {
+public:
+  Relaxation(const StageContext& context, const RelaxOptions& options, const std::string& kind)
+      : model_(context.model), options_(options), state_(context.state), last_good_(context.last_good),
+        stage_(context, kind, model_.length), masses_(model_, stage_.work.resolved.bolts),
+        previous_force_(masses_.of_nodes().size()), settled_(options.residual),
+        stability_(model_, state_, masses_.of_nodes(), moving_steps_) {
+    ResolvedConditions& resolved = stage_.work.resolved;
+    stage_.work.contact.restitution = false; // its steps are no times
+    stage_.in_real_time = false;
+    stage_.breaking = options.breaking;
+    stage_.carried = &previous_force_;
+    update_external(resolved, state_.time);
+    if (context.from)
+      previous_force_ = context.from->previous_force;
+    else
+      begin_at_rest();
+    lead_supports(state_, resolved, stage_.step);
+    Progress& goals = stage_.report.goals;
+    goals.note = options.note;
+    goals.trial = !options.note.empty();
+    goals.residual_goal = options.residual;
+    goals.max_steps = options.max_steps;
+    forces_known_ = stage_.step > 0;
+    largest_reaction2_ = initial_stress_forces2(resolved);
+    if (context.from)
+      take(context.from->loop_state);
+    kept_kinetic_ = stage_.report.sums.kinetic;
+    stage_.looks = options.looks;
+    if (options.callback && options.callback_every > 0)
+      stage_.looks.insert(stage_.looks.begin(), {options.callback_every, 0, options.callback});
   }
+
+  RelaxResult solve() {
+    find_balance();
+    RelaxResult result;
+    static_cast<StageResult&>(result) = stage_.finish();
+    result.converged = converged_;
+    result.verdict = converged_ ? Verdict::stable : failing_ ? Verdict::failing : Verdict::undecided;
+    stability_.describe(result);
+    return result;
+  }
+
+  bool is_over() const override {
+    return stage_.step >= options_.max_steps || converged_ || (failing_ && options_.stop_on_failure);
+  }
+  double time_step() const override { return 1; }
+
+  void begin_step(bool changed, bool /*joined*/) override {
+    if (changed) {
+      masses_ = FictitiousMasses(model_, stage_.work.resolved.bolts);
+      previous_force_.assign(masses_.of_nodes().size(), {});
+      forces_known_ = false;
+      slow_.forget();
+      stability_.renumbered();
+    }
+    if (changed || stage_.step <= moving_steps_)
+      lead_supports(state_, stage_.work.resolved, stage_.step);
+  }
+
+  std::vector<double> loop_state() override {
+    kept_kinetic_ = stage_.report.sums.kinetic;
+    std::vector<double> numbers{lambda_,
+                                damping_,
+                                largest_reaction2_,
+                                kept_kinetic_,
+                                forces_known_ ? 1.0 : 0.0,
+                                slow_.frequency2().value_or(-1)};
+    settled_.add_to(numbers);
+    masses_.add_to(numbers);
+    stability_.add_to(numbers);
+    return numbers;
+  }
+
+  void take_contacts(double /*longest_step*/) override { masses_.follow(model_, stage_.work.contact); }
+  void update_loads() override { stage_.update_loads(nullptr); }
+
+  void move(Range range, const Node* force, NodeSums& sums) override {
+    const auto nodes = [&](Range part) {
+      return moving_nodes(state_, stage_.work.acting(), masses_.of_nodes(), part,
+                          force + (part.begin - range.begin));
+    };
+    each_node(
+        stage_.work.resolved, range,
+        [&](Range part) { relax_nodes(nodes(part), damping_, previous_force_.data() + part.begin, sums); },
+        [&](const HeldNode& h) {
+          relax_held_node(nodes({h.node, h.node + 1}), h, damping_, previous_force_[h.node], sums);
+        });
+  }
+  void move_rigid(int rigid, NodeSums& sums) override {
+    hold_rigid(model_, state_, stage_.work.acting(), rigid, sums);
+  }
+
+  void end_step() override {
+    double& reaction2 = stage_.report.sums.reaction2;
+    largest_reaction2_ = std::max(largest_reaction2_, reaction2);
+    reaction2 = std::max(reaction2, reaction_floor2 * largest_reaction2_);
+  }
+
+  void judge() override {
+    const double residual = stage_.report.residual;
+    if (judges_ && stage_.is_due(watch_every)) {
+      stage_.see_whole();
+      stability_.look(stage_.step, residual);
+      failing_ = stability_.watch().failing();
+    }
+    choose_damping(stage_.report.sums);
+    if (stage_.broken_in_step() == 0 && stage_.step > moving_steps_)
+      settled_.add(residual);
+    else
+      settled_.start_anew();
+    converged_ = settled_.reached(0.5 * damping_);
+  }
+
+private:
+  void begin_at_rest() {
+    const double moving = energy(model_, state_).total();
+    stop(state_);
+    std::fill(state_.viscous_stress.begin(), state_.viscous_stress.end(), StressBatch{});
+    state_.velocity_lag = 0;
+    state_.spent.fictitious += moving - energy(model_, state_).total();
+  }
+
+  // However a relaxation ends, it leaves the state at rest: its velocities are lengths per step of fictitious masses.
+  void find_balance() {
+    const struct AtRest {
+      Relaxation& r;
+      ~AtRest() {
+        r.stage_.synchronise();
+        r.state_.spent.fictitious += r.stage_.report.sums.kinetic;
+        stop(r.state_);
+        stop(r.last_good_);
+      }
+    } at_rest{*this};
+    try {
+      stage_.make_steps(*this);
+    } catch (const SolutionError&) {
+      if (!options_.stop_on_failure || !stability_.watch().suspicious())
+        throw;
+      // It ran too far between two looks: what is kept is the last one.
+      stage_.go_back();
+      stage_.report.sums.kinetic = kept_kinetic_;
+      failing_ = true;
+    }
+  }
+
+  void choose_damping(const NodeSums& sums) {
+    if (sums.inertia > 0 && (forces_known_ || stage_.step <= 1)) {
+      const double quotient = std::max(0.0, sums.stiffness / sums.inertia);
+      lambda_ += (stage_.step < 3 ? 1.0 : smoothing) * (quotient - lambda_);
+    }
+    forces_known_ = true;
+    if (stage_.step > moving_steps_ && stage_.is_due(slow_mode_every)) {
+      stage_.see_surfaces(previous_force_);
+      slow_.look(state_, previous_force_, masses_.of_nodes());
+    }
+    damping_ = std::min(2 * std::sqrt(std::min(lambda_, slow_.frequency2().value_or(lambda_))), most_damping);
+  }
+
+  void take(const std::vector<double>& numbers) {
+    lambda_ = numbers.at(0);
+    damping_ = numbers.at(1);
+    largest_reaction2_ = numbers.at(2);
+    stage_.report.sums.kinetic = numbers.at(3);
+    forces_known_ = numbers.at(4) != 0;
+    slow_.take(numbers.at(5));
+    if (forces_known_ && stage_.step > moving_steps_)
+      slow_.start(state_, previous_force_);
+    stability_.take(numbers, masses_.take(numbers, settled_.take(numbers, 6)));
+  }
+
+  const Model& model_;
+  const RelaxOptions& options_;
+  State &state_, &last_good_;
+  Stage stage_;
+  FictitiousMasses masses_;
+  std::vector<Node> previous_force_; // N, of the step before
+  Settled settled_;
+  SlowMode slow_;
+  const int moving_steps_ = stage_.work.resolved.has_target ? support_steps : 0; // of supports
+  Stability stability_;
+  // Without supports nothing could hold the model: a mistake, that ends with an error.
+  const bool judges_ = !stage_.work.resolved.held.empty();
+  bool failing_ = false, converged_ = false;
+  bool forces_known_ = false; // of the step before
+  double lambda_ = 0, damping_ = 0, largest_reaction2_ = 0;
+  double kept_kinetic_ = 0; // J, of the state that was kept last
 };
 
 } // namespace
 
 RelaxResult relax(const StageContext& context, const RelaxOptions& options, const std::string& kind) {
-  State& state = context.state;
   require_no_quiet(context.conditions);
   require_given_pressures(context.conditions);
-  require_held(context.model, resolve(context.model, state, context.conditions));
-  Stage stage(context, kind, context.model.length);
-  stage.work.contact.restitution = false; // its steps are no times
-  stage.in_real_time = false;
-  FictitiousMasses masses(context.model, stage.work.resolved.bolts);
-  const RestartPoint* const from = context.from;
-  std::vector<Node> previous_force(masses.of_nodes().size()); // N, of the step before
-  stage.carried = &previous_force;
-  update_external(stage.work.resolved, state.time);
-  if (from) {
-    previous_force = from->previous_force;
-  } else {
-    const double moving = energy(context.model, state).total();
-    stop(state);
-    std::fill(state.viscous_stress.begin(), state.viscous_stress.end(), StressBatch{});
-    state.velocity_lag = 0;
-    state.spent.fictitious += moving - energy(context.model, state).total();
-  }
-  lead_supports(state, stage.work.resolved, stage.step);
-  const int moving_steps = stage.work.resolved.has_target ? support_steps : 0;
-
-  // Without supports nothing could hold the model: a mistake, that ends with an error.
-  const bool judges = !stage.work.resolved.held.empty();
-  Stability stability(context.model, state, masses.of_nodes(), moving_steps);
-  bool failing = false, converged = false;
-  Stage::StepReport report;
-  report.goals.note = options.note;
-  report.goals.trial = !options.note.empty();
-  report.goals.residual_goal = options.residual;
-  report.goals.max_steps = options.max_steps;
-  bool forces_known = stage.step > 0; // of the step before
-  double lambda = 0, damping = 0, largest_reaction2 = initial_stress_forces2(stage.work.resolved);
-  Settled settled(options.residual);
-  SlowMode slow;
-  if (from) {
-    lambda = from->loop_state.at(0);
-    damping = from->loop_state.at(1);
-    largest_reaction2 = from->loop_state.at(2);
-    report.sums.kinetic = from->loop_state.at(3);
-    forces_known = from->loop_state.at(4) != 0;
-    slow.take(from->loop_state.at(5));
-    if (forces_known && stage.step > moving_steps)
-      slow.start(state, previous_force);
-    stability.take(from->loop_state, masses.take(from->loop_state, settled.take(from->loop_state, 6)));
-  }
-  const auto loop_state = [&] {
-    std::vector<double> numbers{lambda,
-                                damping,
-                                largest_reaction2,
-                                report.sums.kinetic,
-                                forces_known ? 1.0 : 0.0,
-                                slow.frequency2().value_or(-1)};
-    settled.add_to(numbers);
-    masses.add_to(numbers);
-    stability.add_to(numbers);
-    return numbers;
-  };
-  RelaxResult result;
-  double kept_kinetic = report.sums.kinetic; // J, of the state that was kept last
-  const auto step = [&] {
-    const bool renewed = stage.renew_interfaces(),
-               freed = (options.breaking && stage.split_nodes(1)) || renewed;
-    if (freed) {
-      masses = FictitiousMasses(context.model, stage.work.resolved.bolts);
-      previous_force.assign(masses.of_nodes().size(), {});
-      forces_known = false;
-      slow.forget();
-      stability.renumbered();
-    }
-    if (freed || stage.can_be_left()) {
-      stage.keep_restart_point(loop_state(), previous_force);
-      kept_kinetic = report.sums.kinetic;
-    }
-    if (freed || stage.step <= moving_steps)
-      lead_supports(state, stage.work.resolved, stage.step);
-    stage.update_contacts();
-    masses.follow(context.model, stage.work.contact);
-    stage.update_loads_at_rest();
-    const auto move = [&](Range range, const Node* force, NodeSums& sums) {
-      const auto nodes = [&](Range part) {
-        return moving_nodes(state, stage.work.acting(), masses.of_nodes(), part,
-                            force + (part.begin - range.begin));
-      };
-      each_node(
-          stage.work.resolved, range,
-          [&](Range part) { relax_nodes(nodes(part), damping, previous_force.data() + part.begin, sums); },
-          [&](const HeldNode& h) {
-            relax_held_node(nodes({h.node, h.node + 1}), h, damping, previous_force[h.node], sums);
-          });
-    };
-    report.sums = stage.advance(options.breaking, move, [&](int rigid, NodeSums& sums) {
-      hold_rigid(context.model, state, stage.work.acting(), rigid, sums);
-    });
-    stage.end_step(1); // velocities are lengths per step
-    largest_reaction2 = std::max(largest_reaction2, report.sums.reaction2);
-    report.sums.reaction2 = std::max(report.sums.reaction2, reaction_floor2 * largest_reaction2);
-    report.residual = relative_residual(report.sums);
-    stage.watch(report);
-    if (judges && stage.is_due(watch_every)) {
-      stage.see_whole();
-      stability.look(stage.step, report.residual);
-      failing = stability.watch().failing();
-    }
-
-    if (report.sums.inertia > 0 && (forces_known || stage.step <= 1)) {
-      const double quotient = std::max(0.0, report.sums.stiffness / report.sums.inertia);
-      lambda += (stage.step < 3 ? 1.0 : smoothing) * (quotient - lambda);
-    }
-    forces_known = true;
-    if (stage.step > moving_steps && stage.is_due(slow_mode_every)) {
-      stage.see_surfaces(previous_force);
-      slow.look(state, previous_force, masses.of_nodes());
-    }
-    damping = std::min(2 * std::sqrt(std::min(lambda, slow.frequency2().value_or(lambda))), most_damping);
-    if (stage.broken_in_step() == 0 && stage.step > moving_steps)
-      settled.add(report.residual);
-    else
-      settled.start_anew();
-    converged = settled.reached(0.5 * damping);
-    if (options.callback && options.callback_every > 0 && stage.step % options.callback_every == 0) {
-      const SynchronisedView view(stage, SynchronisedView::Of::shares); // what it reads is of one moment
-      options.callback();
-      view.require_same_looks();
-    }
-    look(stage, options.looks, state.time, state.time);
-  };
-  {
-    const AtRest at_rest{stage, state, context.last_good, report.sums};
-    try {
-      while (stage.step < options.max_steps && !converged && !(failing && options.stop_on_failure))
-        step();
-    } catch (const SolutionError&) {
-      if (!options.stop_on_failure || !stability.watch().suspicious())
-        throw;
-      // It ran too far between two looks: what is kept is the last one.
-      stage.go_back();
-      report.sums.kinetic = kept_kinetic;
-      failing = true;
-    }
-  }
-  static_cast<StageResult&>(result) = stage.finish(report);
-  result.converged = converged;
-  result.verdict = result.converged ? Verdict::stable : failing ? Verdict::failing : Verdict::undecided;
-  stability.describe(result);
-  return result;
+  require_held(context.model, resolve(context.model, context.state, context.conditions));
+  return Relaxation(context, options, kind).solve();
 }
 
 } // namespace cdem

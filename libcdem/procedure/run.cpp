@@ -9,7 +9,7 @@
 #include "libcdem/integrate/viscous_forces.hpp"
 #include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/procedure/scaled_stage.hpp"
-#include "libcdem/step/synchronised_view.hpp"
+#include "libcdem/step/step.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -130,6 +130,208 @@ bool any_dry_joint(const Model& model, const State& state) {
   });
 }
 
+class Run final : public Procedure {
+public:
+  Run(const StageContext& context, const RunOptions& options, const std::string& kind)
+      : context_(context), model_(context.model), options_(options), kind_(kind),
+        state_(context.state), stepping_{context.from ? Clock(context.from->loop_state).time_step()
+                                                      : choose_first_step(context, options),
+                                         0, options.local_damping, options.damp_flight},
+        stage_(context, kind, run_away_lengths * model_.length),
+        scaled_(context,
+                !options.mass_scaling.on() ? 0
+                : context.from             ? context.from->loop_state.back()
+                                           : stepping_.time_step,
+                options.safety),
+        clock_(state_.time, stepping_.time_step, options) {
+    stage_.breaking = options.breaking;
+    stage_.safety = options.safety;
+    stage_.follows_fragments = options.follows_fragments;
+    stage_.escapes = {left_lengths * model_.length,
+                      (options.holds_what_left ? left_lengths : run_away_lengths) * model_.length};
+    stage_.details = options.details;
+    stage_.work.contact.most_friction = options.most_friction;
+    stage_.work.contact.looks_at_all = options.looks_at_all_contacts;
+    stage_.work.damped = !state_.viscous_stress.empty();
+    stage_.looks = options.looks;
+    if ((options.callback && options.callback_every > 0) || options.stop)
+      stage_.looks.insert(stage_.looks.begin(),
+                          {options.callback_every > 0 ? options.callback_every : 100, 0, [this] { ask(); }});
+    if (context.from) {
+      clock_ = Clock(context.from->loop_state);
+      if (context.from->step == 0)
+        clock_.set_goal(state_.time, options);
+      else
+        scaled_.take(context.from->loop_state);
+    }
+    set_goals();
+    lead_supports();
+    stage_.sample_start();
+    if (scaled_.on())
+      stage_.scale_masses = [this] { scaled_.scale(); };
+    else
+      stage_.carry_water(stage_.work.resolved.water_mass);
+  }
+
+  RunResult solve() {
+    stage_.make_steps(*this);
+    if (!context_.procedure_state)
+      stage_.keep_end(numbers(stage_.step));
+    if (!scaled_.on())
+      stage_.carry_water({});
+    RunResult result{stage_.finish(), state_.time, stepping_.time_step, {}};
+    if (scaled_.on()) {
+      if (!stage_.is_due(watch_every))
+        scaled_.sample();
+      result.scaled = scaled_.report();
+    }
+    return result;
+  }
+
+  bool is_over() const override { return stage_.step >= clock_.steps() || stopped_; }
+  double time_step() const override { return stepping_.time_step; }
+  std::vector<double> loop_state() override { return numbers(0); }
+
+  void begin_step(bool changed, bool joined) override {
+    if (changed) {
+      viscous_ = viscous_forces(model_);
+      stable_now_ = model_.frames.empty() ? 0 : stable_of_all();
+      stable_of_mesh_ = stable_of_mesh();
+      if (joined && options_.time_step == 0 && !scaled_.on())
+        take_step(choose_time_step(context_, options_));
+      if (!scaled_.on())
+        shorten(options_.safety * stable_of_mesh_);
+    }
+    if (chooses_step_ && (changed || stage_.begins() || stage_.is_due(watch_every)) &&
+        any_dry_joint(model_, state_))
+      shorten(options_.safety * stable_step_of_dry_joints(stable_now_));
+    stage_.work.bond.contact_damping = contact_damping(
+        stepping_.time_step, scaled_.on() ? stepping_.time_step / options_.safety : stable_now_);
+  }
+
+  void take_contacts(double longest) override {
+    if (keeps_energy_of_impacts_)
+      longest = std::min(longest, stage_.longest_step_of_flight());
+    if (has_crack_pressure_)
+      longest = std::min(longest, options_.safety * stage_.update_crack_pressures(stable_of_mesh_));
+    shorten(longest);
+  }
+
+  void update_loads() override {
+    lead_supports();
+    // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
+    stepping_.kick = state_.velocity_lag + 0.5 * stepping_.time_step;
+    stage_.update_loads(&stepping_);
+    stage_.work.bond.damping_step = stepping_.time_step;
+  }
+
+  void move(Range range, const Node* force, NodeSums& sums) override {
+    const auto nodes = [&](Range part) {
+      MovingNodes moving = moving_nodes(state_, stage_.work.acting(), moving_mass(model_, state_), part,
+                                        force + (part.begin - range.begin));
+      moving.viscous = viscous_.empty() ? nullptr : viscous_.data() + part.begin;
+      return moving;
+    };
+    step_nodes_and_held(stage_.work.resolved, range, nodes, stepping_, sums);
+  }
+  void move_rigid(int rigid, NodeSums& sums) override {
+    stage_.work.rigid_angle[rigid] =
+        cdem::move_rigid(model_, state_, stage_.work.acting(), rigid, stepping_, sums);
+  }
+  void place_rigid(int rigid) override {
+    cdem::place_rigid(model_, state_, rigid, stage_.work.rigid_angle[rigid], stepping_.time_step);
+  }
+
+  void end_step() override {
+    state_.time = clock_.time_at(stage_.step);
+    state_.velocity_lag = 0.5 * stepping_.time_step;
+  }
+
+  void judge() override {
+    if (!scaled_.on() || !stage_.is_due(watch_every))
+      return;
+    stage_.see_whole();
+    scaled_.sample();
+  }
+
+private:
+  void ask() {
+    if (options_.callback && options_.callback_every > 0)
+      options_.callback();
+    stopped_ = options_.stop && options_.stop() && stage_.report.residual <= options_.stop_residual;
+  }
+
+  std::vector<double> numbers(std::int64_t step) const {
+    std::vector<double> numbers = clock_.loop_state(step);
+    scaled_.add_to(numbers);
+    return numbers;
+  }
+
+  void set_goals() {
+    // What only `stop` ends has no goal to tell of.
+    const std::int64_t steps = clock_.steps();
+    if (steps == std::numeric_limits<std::int64_t>::max())
+      return;
+    Progress& goals = stage_.report.goals;
+    goals.max_steps = steps;
+    goals.time_goal = clock_.time_at(steps);
+    goals.time_start =
+        goals.time_goal -
+        (options_.duration > 0 ? options_.duration : static_cast<double>(steps) * clock_.time_step());
+  }
+
+  // Supports with a given displacement are there at the end. They are led anew in every step, so that where the stage can be
+  // left, or the model changes, does not matter.
+  void lead_supports() {
+    ResolvedConditions& r = stage_.work.resolved;
+    if (!r.has_target)
+      return;
+    const bool has_end =
+        clock_.steps() < std::numeric_limits<std::int64_t>::max() && !options_.holds_what_left;
+    if (has_end)
+      aim_supports(state_, r, clock_.time_at(clock_.steps()) - clock_.time_at(stage_.step));
+    else if (has_way_to_go(model_, state_, r))
+      throw geom::InputError("displacement of fix: " + kind_ +
+                             " has no set end at which the support could be there; move it by model:relax or "
+                             "model:run before, or give velocity");
+  }
+
+  double stable_of_mesh() const { return stable_time_step(model_, stage_.work.resolved.bolts); }
+  double stable_of_all() const { // s; rigid bodies take half of their stable step at most
+    const double stable = stable_of_mesh();
+    return model_.surface.empty() ? stable : std::min(stable, 2 * rigid_time_step(model_, 1));
+  }
+  void take_step(double time_step) {
+    stepping_.time_step = time_step;
+    clock_.go_on_with(stage_.step, time_step);
+    set_goals();
+  }
+  void shorten(double longest) {
+    if (longest < stepping_.time_step)
+      take_step(longest);
+  }
+
+  const StageContext& context_;
+  const Model& model_;
+  const RunOptions& options_;
+  const std::string& kind_;
+  State& state_;
+  Stepping stepping_;
+  Stage stage_;
+  ScaledStage scaled_;
+  Clock clock_;
+  std::vector<double> viscous_ = viscous_forces(model_);
+  const bool chooses_step_ = options_.time_step == 0 && !scaled_.on() && !model_.frames.empty();
+  // Where damping takes the energy anyway, and where the user has chosen the step, impacts are as coarse as the step.
+  const bool keeps_energy_of_impacts_ =
+      options_.local_damping == 0 && options_.damp_flight && options_.time_step == 0;
+  const bool has_crack_pressure_ = !context_.conditions.crack_pressures.empty();
+  double stable_now_ = model_.frames.empty() ? 0 : stable_of_all(); // s
+  // s; only where a fluid in a crack asks for it: it reads the whole model, whose other parts a rank has given back.
+  double stable_of_mesh_ = has_crack_pressure_ ? stable_of_mesh() : 0;
+  bool stopped_ = false;
+};
+
 } // namespace
 
 double stable_time_step(const Model& model, const std::vector<ResolvedBolt>& bolts) {
@@ -146,176 +348,7 @@ double stable_time_step(const Model& model, const std::vector<ResolvedBolt>& bol
 }
 
 RunResult run(const StageContext& context, const RunOptions& options, const std::string& kind) {
-  State& state = context.state;
-  const RestartPoint* const from = context.from;
-  Stepping stepping{from ? Clock(from->loop_state).time_step() : choose_first_step(context, options), 0,
-                    options.local_damping, options.damp_flight};
-  Stage stage(context, kind, run_away_lengths * context.model.length);
-  ScaledStage scaled(context,
-                     !options.mass_scaling.on() ? 0
-                     : from                     ? from->loop_state.back()
-                                                : stepping.time_step,
-                     options.safety);
-  stage.follows_fragments = options.follows_fragments;
-  stage.escapes = {left_lengths * context.model.length,
-                   (options.holds_what_left ? left_lengths : run_away_lengths) * context.model.length};
-  stage.details = options.details;
-  stage.work.contact.most_friction = options.most_friction;
-  stage.work.contact.looks_at_all = options.looks_at_all_contacts;
-  stage.work.damped = !state.viscous_stress.empty();
-  std::vector<double> viscous = viscous_forces(context.model);
-  Stage::StepReport report;
-  Clock clock(state.time, stepping.time_step, options);
-  if (from) {
-    clock = Clock(from->loop_state);
-    if (from->step == 0)
-      clock.set_goal(state.time, options);
-    else
-      scaled.take(from->loop_state);
-  }
-  const auto set_goals = [&] {
-    // What only `stop` ends has no goal to tell of.
-    if (clock.steps() < std::numeric_limits<std::int64_t>::max()) {
-      report.goals.max_steps = clock.steps();
-      report.goals.time_goal = clock.time_at(clock.steps());
-      report.goals.time_start =
-          report.goals.time_goal -
-          (options.duration > 0 ? options.duration : static_cast<double>(clock.steps()) * clock.time_step());
-    }
-  };
-  set_goals();
-  // Supports with a given displacement are there at the end. They are led anew in every step, so that where the stage can be
-  // left, or the model changes, does not matter.
-  const auto lead_supports = [&] {
-    ResolvedConditions& r = stage.work.resolved;
-    if (!r.has_target)
-      return;
-    const bool has_end = clock.steps() < std::numeric_limits<std::int64_t>::max() && !options.holds_what_left;
-    if (has_end)
-      aim_supports(state, r, clock.time_at(clock.steps()) - clock.time_at(stage.step));
-    else if (has_way_to_go(context.model, state, r))
-      throw geom::InputError("displacement of fix: " + kind +
-                             " has no set end at which the support could be there; move it by model:relax or "
-                             "model:run before, or give velocity");
-  };
-  lead_supports();
-  stage.sample_start();
-  const auto loop_state = [&](std::int64_t step) {
-    std::vector<double> numbers = clock.loop_state(step);
-    scaled.add_to(numbers);
-    return numbers;
-  };
-  if (scaled.on())
-    stage.scale_masses = [&] { scaled.scale(); };
-  else
-    stage.carry_water();
-  // Where damping takes the energy anyway, and where the user has chosen the step, impacts are as coarse as the step.
-  const bool keeps_energy_of_impacts =
-      options.local_damping == 0 && options.damp_flight && options.time_step == 0;
-  const std::int64_t ask_every = options.callback_every > 0 ? options.callback_every : 100;
-
-  const auto stable_of_all = [&] { // s; rigid bodies take half of their stable step at most
-    const double stable = stable_time_step(context.model, stage.work.resolved.bolts);
-    return context.model.surface.empty() ? stable : std::min(stable, 2 * rigid_time_step(context.model, 1));
-  };
-  double stable_now = context.model.frames.empty() ? 0 : stable_of_all();
-  const bool chooses_step = options.time_step == 0 && !scaled.on() && !context.model.frames.empty();
-  const auto take_step = [&](double time_step) {
-    stepping.time_step = time_step;
-    clock.go_on_with(stage.step, time_step);
-    set_goals();
-  };
-  const auto shorten = [&](double longest) {
-    if (longest >= stepping.time_step)
-      return false;
-    take_step(longest);
-    return true;
-  };
-  // s; only where a fluid in a crack asks for it: it reads the whole model, whose other parts a rank has given back.
-  const bool has_crack_pressure = !context.conditions.crack_pressures.empty();
-  double stable_of_mesh = has_crack_pressure ? stable_time_step(context.model, stage.work.resolved.bolts) : 0;
-  bool stopped = false;
-  while (stage.step < clock.steps() && !stopped) {
-    const bool renewed = stage.renew_interfaces(),
-               freed = (options.breaking && stage.split_nodes(stepping.time_step)) || renewed;
-    const bool joined = options.breaking && stage.join_nodes();
-    if (freed || joined) {
-      viscous = viscous_forces(context.model);
-      stable_now = context.model.frames.empty() ? 0 : stable_of_all();
-      stable_of_mesh = stable_time_step(context.model, stage.work.resolved.bolts);
-      if (joined && options.time_step == 0 && !scaled.on())
-        take_step(choose_time_step(context, options));
-      if (!scaled.on())
-        shorten(options.safety * stable_of_mesh);
-    }
-    // Before the restart point, which is where a stage that goes on begins.
-    if (chooses_step && (freed || joined || stage.begins() || stage.is_due(watch_every)) &&
-        any_dry_joint(context.model, state))
-      shorten(options.safety * stable_step_of_dry_joints(stable_now));
-    if (freed || joined || stage.can_be_left())
-      stage.keep_restart_point(loop_state(0));
-    stage.work.bond.contact_damping =
-        contact_damping(stepping.time_step, scaled.on() ? stepping.time_step / options.safety : stable_now);
-    double longest = stage.update_contacts(options.safety);
-    if (keeps_energy_of_impacts)
-      longest = std::min(longest, stage.longest_step_of_flight());
-    if (has_crack_pressure)
-      longest = std::min(longest, options.safety * stage.update_crack_pressures(stable_of_mesh));
-    shorten(longest);
-    lead_supports();
-    // Velocities that stand at the time of the displacements, at the start or after a relaxation, take half a step.
-    stepping.kick = state.velocity_lag + 0.5 * stepping.time_step;
-    stage.update_loads(state.time, stepping);
-    stage.work.bond.damping_step = stepping.time_step;
-    const auto move = [&](Range range, const Node* force, NodeSums& sums) {
-      const auto nodes = [&](Range part) {
-        MovingNodes moving = moving_nodes(state, stage.work.acting(), moving_mass(context.model, state), part,
-                                          force + (part.begin - range.begin));
-        moving.viscous = viscous.empty() ? nullptr : viscous.data() + part.begin;
-        return moving;
-      };
-      step_nodes_and_held(stage.work.resolved, range, nodes, stepping, sums);
-    };
-    std::vector<geom::Vec3>& angle = stage.work.rigid_angle;
-    report.sums = stage.advance(
-        options.breaking, move,
-        [&](int rigid, NodeSums& sums) {
-          angle[rigid] = move_rigid(context.model, state, stage.work.acting(), rigid, stepping, sums);
-        },
-        [&](int rigid) { place_rigid(context.model, state, rigid, angle[rigid], stepping.time_step); });
-    stage.end_step(stepping.time_step);
-    report.residual = relative_residual(report.sums);
-    const double before = state.time;
-    state.time = clock.time_at(stage.step);
-    state.velocity_lag = 0.5 * stepping.time_step;
-    stage.watch(report);
-    if (scaled.on() && stage.is_due(watch_every)) {
-      stage.see_whole();
-      scaled.sample();
-    }
-    if (stage.step % ask_every == 0) {
-      std::optional<SynchronisedView> view; // what they read is of one moment
-      if (options.callback || options.stop)
-        view.emplace(stage, SynchronisedView::Of::shares);
-      if (options.callback && options.callback_every > 0) {
-        options.callback();
-        view->require_same_looks();
-      }
-      stopped = options.stop && options.stop() && report.residual <= options.stop_residual;
-    }
-    look(stage, options.looks, before, state.time);
-  }
-  if (!context.procedure_state)
-    stage.keep_end(loop_state(stage.step));
-  if (!scaled.on())
-    stage.drop_water();
-  RunResult result{stage.finish(report), state.time, stepping.time_step, {}};
-  if (scaled.on()) {
-    if (!stage.is_due(watch_every))
-      scaled.sample();
-    result.scaled = scaled.report();
-  }
-  return result;
+  return Run(context, options, kind).solve();
 }
 
 } // namespace cdem

@@ -36,6 +36,8 @@ std::size_t Links::received() const {
 }
 
 void Links::share(const std::vector<Array>& arrays) {
+  if (send_.empty()) // nothing is told
+    return;
   std::size_t bytes = 0;
   for (const Array& array : arrays)
     bytes += array.bytes;

@@ -124,10 +124,8 @@ std::vector<std::int32_t> faces_read(const Model& model, const Partition& part) 
 
 } // namespace
 
-SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& read_always,
-                         const std::vector<double>& loads)
-    : part_(model, loads, ranks().rank(), ranks().size()),
-      shares_(std::make_shared<const StateShares>(model, part_)), nodes_(nodes_read(model, part_)) {
+SharedState::SharedState(const Model& model, Partition part)
+    : part_(std::move(part)), shares_(std::make_shared<const StateShares>(model, part_)) {
   for (int rigid = 0; rigid < static_cast<int>(model.rigid.size()); ++rigid) {
     const Block& block = model.blocks[model.rigid[rigid].block];
     mover_.push_back(part_.owner_of_node(block.node_begin));
@@ -137,6 +135,15 @@ SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& re
       own_bodies_.push_back(rigid);
   }
   placed_bodies_ = own_bodies_;
+}
+
+SharedState::SharedState(const Model& model)
+    : SharedState(model, Partition(model, std::vector<double>(model.chunks.size()), 0, 1)) {}
+
+SharedState::SharedState(const Model& model, const std::vector<std::int32_t>& read_always,
+                         const std::vector<double>& loads)
+    : SharedState(model, Partition(model, loads, ranks().rank(), ranks().size())) {
+  nodes_ = nodes_read(model, part_);
   nodes_.insert(nodes_.end(), read_always.begin(), read_always.end());
   const MeshData& mesh = model.mesh;
   const auto along = [](const std::vector<std::int64_t>& begin) {
@@ -165,6 +172,8 @@ void SharedState::set_further_bodies(std::vector<int> rigid) {
 }
 
 void SharedState::share_rigid(State& state, std::vector<geom::Vec3>& angle) {
+  if (alone())
+    return;
   Pack own;
   for (const int rigid : moved_bodies_) {
     own(state.rigid[rigid]);
@@ -201,6 +210,8 @@ void SharedState::share_nodes(State& state) {
 }
 
 void SharedState::parted(State& state) {
+  if (alone())
+    return;
   const bool filled = shares_->filled(); // maybe on rank 0 alone
   since_whole_ = whole_ || filled ? 0 : since_whole_ + 1;
   since_surfaces_ = surfaces_whole() || filled ? 0 : since_surfaces_ + 1;
@@ -219,6 +230,8 @@ void SharedState::gather_surfaces(State& state) {
 }
 
 void SharedState::part_contacts(State& state) {
+  if (alone())
+    return;
   state.parted = shares_;
   contacts_whole_ = false;
 }
@@ -243,6 +256,10 @@ void SharedState::gather(State& state) {
 }
 
 void SharedState::keep(State& state, State& copy) const {
+  if (alone()) {
+    copy = state;
+    return;
+  }
   shares_->copy(state, copy);
   copy.parted = shares_;
 }

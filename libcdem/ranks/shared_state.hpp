@@ -5,6 +5,8 @@
 // forces, to the owners of nodes; (3) the new positions of nodes, to the ranks that read them; and sums. The owner
 // alone moves a node, since it knows all forces on it. This needs one message more than if every rank with a copy moved
 // the node, but half the rules.
+//
+// Of one process that is by itself the share is everything, and all that is told does nothing.
 #pragma once
 
 #include "libcdem/ranks/links.hpp"
@@ -14,10 +16,12 @@ namespace cdem {
 
 class SharedState {
 public:
+  explicit SharedState(const Model&); // of one that computes all
   // The state must be whole. read_always: nodes that this rank reads for any share of chunks. loads: chunk_loads.
   SharedState(const Model&, const std::vector<std::int32_t>& read_always, const std::vector<double>& loads);
 
   const Partition& part() const { return part_; }
+  bool alone() const { return part_.size == 1; }
 
   // In a step.
   void share_springs(std::vector<geom::Vec3>& spring_force, std::vector<geom::Vec3>& acting_force);
@@ -57,6 +61,8 @@ public:
   void keep(State& state, State& copy) const;
 
 private:
+  SharedState(const Model&, Partition);
+
   Partition part_;
   std::shared_ptr<const StateShares> shares_;
   bool whole_ = true, surfaces_whole_ = true, contacts_whole_ = true;

@@ -176,6 +176,8 @@ void StateShares::gather_contacts(State& state) const {
 }
 
 void StateShares::gather_on_lead(State& state) const {
+  if (size_ == 1)
+    return;
   filled_ = true;
   const auto visit = [&](const std::vector<std::int64_t>& begin, std::size_t entries, auto& values) {
     gather_on_lead(values.data(), begin, values.size() * sizeof values[0], entries * sizeof values[0]);

@@ -36,7 +36,7 @@ void ContactUpdate::evaluate(const StageContext& context, ContactWork& work, Run
   if (sums.deepest > deepest_.deepest)
     deepest_ = sums;
   if (looks && !work.due && (sums.contacts != contacts_before_ || context.state.step % meetings_every == 0)) {
-    strike_out_met(context.model, context.state, log, work.shared != nullptr);
+    strike_out_met(context.model, context.state, log);
     contacts_before_ = sums.contacts;
   }
 }
@@ -44,10 +44,10 @@ void ContactUpdate::evaluate(const StageContext& context, ContactWork& work, Run
 double ContactUpdate::longest_step(const StageContext& context, const Workspace& work, double safety,
                                    const StageStep& here) {
   const ContactSums sums = std::exchange(deepest_, {});
-  if (sums.deepest > 1 && work.shared)
+  if (sums.deepest > 1) {
     work.shared->gather(context.state);
-  if (sums.deepest > 1)
     refuse_depth(context.model, context.state, sums.deepest_source, sums.deepest_target, here);
+  }
   return std::min(
       contact_time_step(context.model, context.state, work.contact,
                         {row_sums_, work.damped,

@@ -54,8 +54,6 @@ bool any_is_out(const Model& model, const State& state, const EscapeLimits& limi
 std::vector<Escape> find_escapes(const Model& model, State& state, const ResolvedConditions& conditions,
                                  const EscapeLimits& limits) {
   std::vector<Escape> found;
-  if (!any_is_out(model, state, limits, {0, static_cast<std::int64_t>(model.node_position.size())}))
-    return found;
   const std::vector<int> pieces = fragments_of_nodes(model, state);
   std::map<int, Piece> by_first; // by the smallest node of the piece
   for (int node = 0; node < static_cast<int>(pieces.size()); ++node) {

@@ -25,9 +25,29 @@ FaceSlip begun(FaceSlip slip, int point, const FaceBreak& broken) {
   return slip;
 }
 
+// event: how the bond of the row broke.
+template <class Event>
+void add_break(const Event& event, BreakRow row, RunLog& log) {
+  row.mode = event.mode;
+  row.normal_traction = event.normal_traction;
+  row.shear_traction = event.shear_traction;
+  log.breaks.push_back(row);
+  ++(event.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
+}
+
+// The bond of a face, in one block.
+BreakRow row_of_face(const Model& model, const MeshChunk& chunk, const FaceSpringPlace& at,
+                     const geom::Vec3& normal, BreakRow row) {
+  row.place = face_point(model, chunk, at);
+  row.normal = normal;
+  row.area = model.mesh.faces[at.batch].area[at.lane];
+  row.block_a = row.block_b = model.blocks[chunk.block].id;
+  return row;
+}
+
 } // namespace
 
-void strike_out_met(const Model& model, const State& state, RunLog& log, bool among_ranks) {
+void strike_out_met(const Model& model, const State& state, RunLog& log) {
   if (log.unmet.empty())
     return;
   std::vector<double> met(log.unmet.size(), 0.0);
@@ -39,8 +59,7 @@ void strike_out_met(const Model& model, const State& state, RunLog& log, bool am
     if (here != log.unmet.end())
       met[here - log.unmet.begin()] = 1;
   }
-  if (among_ranks)
-    ranks().largest(met.data(), met.size());
+  ranks().largest(met.data(), met.size());
   std::size_t left = 0;
   for (std::size_t i = 0; i < met.size(); ++i)
     if (met[i] == 0)
@@ -64,41 +83,25 @@ std::int64_t record_bond_breaks(const Model& model, State& state, const Workspac
     for (const BreakEvent& event : sums.broken) {
       const BondPoint& point = model.points[event.point];
       const Interface& interface = model.interfaces[point.interface];
-      BreakRow row;
-      row.stage = stage;
-      row.step = step;
-      row.time = state.time;
-      row.mode = event.mode;
-      row.place = model.point_position[event.point];
-      row.normal = point.normal;
-      row.area = point.area;
-      row.normal_traction = event.normal_traction;
-      row.shear_traction = event.shear_traction;
-      row.block_a = model.blocks[interface.block_a].id;
-      row.block_b = model.blocks[interface.block_b].id;
-      log.breaks.push_back(row);
-      ++(event.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
-      ++count;
+      add_break(event,
+                {stage, step, state.time, event.mode, model.point_position[event.point], point.normal,
+                 point.area, 0, 0, model.blocks[interface.block_a].id, model.blocks[interface.block_b].id},
+                log);
     }
+    count += static_cast<std::int64_t>(sums.broken.size());
   }
   return count;
-}
-
-void record_crack_energy(const Model& model, State& state, const Workspace& work) {
-  for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
-    const CrackEnergy& crack = work.face_sums[c].crack;
-    if (crack.tension != 0 || crack.shear != 0)
-      crack_energy_of(model, state, model.blocks[model.mesh.chunks[c].block].body) += crack;
-  }
 }
 
 std::int64_t record_face_breaks(const Model& model, State& state, Workspace& work, RunLog& log, int stage,
                                 std::int64_t step) {
   std::int64_t count = 0;
-  record_crack_energy(model, state, work);
   for (std::size_t c = 0; c < work.face_sums.size(); ++c) {
     const FaceSums& sums = work.face_sums[c];
     const MeshChunk& chunk = model.mesh.chunks[c];
+    const int body = model.blocks[chunk.block].body;
+    if (sums.crack.tension != 0 || sums.crack.shear != 0)
+      crack_energy_of(model, state, body) += sums.crack;
     state.spent.friction += sums.friction;
     state.spent.breaking += sums.breaking;
     state.spent.damping += sums.damping;
@@ -112,23 +115,11 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),
                                static_cast<int>(broken.spring / lanes % 3),
                                static_cast<int>(broken.spring % lanes)};
-      BreakRow row;
-      row.stage = stage;
-      row.step = step;
-      row.time = state.time;
-      row.mode = broken.mode;
-      row.place = face_point(model, chunk, at);
-      row.normal = broken.normal;
-      row.area = model.mesh.faces[at.batch].area[at.lane];
-      row.normal_traction = broken.normal_traction;
-      row.shear_traction = broken.shear_traction;
-      row.block_a = row.block_b = model.blocks[chunk.block].id;
-      if (!model.bodies[model.blocks[chunk.block].body].bonding.is_cohesive())
+      add_break(broken, row_of_face(model, chunk, at, broken.normal, {stage, step, state.time}), log);
+      if (!model.bodies[body].bonding.is_cohesive())
         slips_of(state, at.batch).set(at.lane, begun(slip_of(state, at.batch, at.lane), at.point, broken));
-      log.breaks.push_back(row);
-      ++(broken.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
-      ++count;
     }
+    count += static_cast<std::int64_t>(sums.broken.size());
   }
   return count;
 }
@@ -145,19 +136,7 @@ std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCr
     crack_energy_of(model, state, model.blocks[model.mesh.chunks[chunk].block].body) += energy;
   for (const BegunCracks::Break& broken : begun.broken) {
     const MeshChunk& chunk = model.mesh.chunks[broken.chunk];
-    BreakRow row;
-    row.stage = stage;
-    row.step = step;
-    row.time = state.time;
-    row.mode = broken.mode;
-    row.place = face_point(model, chunk, broken.place);
-    row.normal = broken.normal;
-    row.area = model.mesh.faces[broken.place.batch].area[broken.place.lane];
-    row.normal_traction = broken.normal_traction;
-    row.shear_traction = broken.shear_traction;
-    row.block_a = row.block_b = model.blocks[chunk.block].id;
-    log.breaks.push_back(row);
-    ++(broken.mode == BondMode::broken_tension ? log.broken_tension : log.broken_shear);
+    add_break(broken, row_of_face(model, chunk, broken.place, broken.normal, {stage, step, state.time}), log);
   }
   return static_cast<std::int64_t>(begun.broken.size());
 }

@@ -13,9 +13,6 @@ std::int64_t record_bond_breaks(const Model&, State&, const Workspace&, RunLog&,
 // The same of the bonded faces of meshes; contacts are told of those that are handed over to them.
 std::int64_t record_face_breaks(const Model&, State&, Workspace&, RunLog&, int stage, std::int64_t step);
 
-// Energy taken by cracks in the bonded faces of meshes, into State::crack_energy.
-void record_crack_energy(const Model&, State&, const Workspace&);
-
 // The same of faces of cohesive bodies that broke as soon as they cracked.
 std::int64_t record_begun_cracks(const Model&, State&, const BegunCracks&, RunLog&, int stage,
                                  std::int64_t step);
@@ -25,7 +22,7 @@ void record_history(const Model&, const State&, const Conditions&, RunLog&, int 
                     double kinetic);
 
 // Bodies that touch now are taken out of RunLog::unmet.
-void strike_out_met(const Model&, const State&, RunLog&, bool among_ranks);
+void strike_out_met(const Model&, const State&, RunLog&);
 
 // Which watched units have left.
 void look_at_units(const Model&, const State&, const Conditions&, RunLog&);

@@ -76,9 +76,9 @@ void clear(std::vector<Sums>& all, std::int64_t begin, std::int64_t end) {
 } // namespace
 
 bool has_to_tell(const Workspace& work, const BegunCracks& begun) {
-  if (!work.shared)
+  const Partition& part = work.part();
+  if (part.size == 1)
     return false;
-  const Partition& part = work.shared->part();
   return any_in(work.face_sums, part.mesh_chunks()) || any_in(work.bond.sums, part.point_chunks()) ||
          !begun.empty();
 }
@@ -98,9 +98,7 @@ void share_reliefs(BegunCracks& begun) {
 }
 
 void share_sums(Workspace& work, BegunCracks& begun, std::int64_t tellers) {
-  if (!work.shared)
-    return;
-  const Partition& part = work.shared->part();
+  const Partition& part = work.part();
   const Range meshes = part.mesh_chunks(), points = part.point_chunks();
   for (int r = 0; r < part.size; ++r) {
     if (r == part.rank)

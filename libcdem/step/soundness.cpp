@@ -109,7 +109,7 @@ void require_sound(const Model& model, const State& state, double run_away, cons
 bool share_is_sound(const Model& model, const State& state, const Workspace& work, double run_away) {
   const std::string nobody_reads_it;
   try {
-    require_sound_part(model, state, run_away, {0, nobody_reads_it, 0}, share(model, work.shared->part()));
+    require_sound_part(model, state, run_away, {0, nobody_reads_it, 0}, share(model, work.part()));
   } catch (const SolutionError&) {
     return false;
   }

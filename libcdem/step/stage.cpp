@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/bond/release.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
@@ -9,6 +10,7 @@
 #include "libcdem/results/free_surface.hpp"
 #include "libcdem/results/picture_snapshot.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/record.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 
@@ -72,9 +74,9 @@ double relative_residual(const NodeSums& sums) {
 Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
       threads_(useful_threads(context.model, context.threads)), contacts_(context),
-      watch_(StrengthWatch::of(context.model)), has_shared_nodes_(has_shared_nodes(context.model)),
-      kind_(std::move(kind)), run_away_(run_away), broken_tension_before_(context.log.broken_tension),
-      broken_shear_before_(context.log.broken_shear), start_(std::chrono::steady_clock::now()),
+      watch_(StrengthWatch::of(context.model)), kind_(std::move(kind)), run_away_(run_away),
+      broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
+      start_(std::chrono::steady_clock::now()),
       progress_(context.observer, context.log, context.from ? context.from->step : 0) {
   start_watch();
   (void)instruction_set(); // a bad name of one is told of here, not by a thread
@@ -87,23 +89,19 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     go_on_from(*context_.from);
   else
     keep_start_of_loop(context_);
-  if (shared_) {
-    keep_last_good();
-    give_back();
-  } else {
-    note_last_good();
-  }
+  keep_last_good();
+  give_back();
 }
 
 Stage::~Stage() {
   if (left_alone())
     return;
   synchronise();
-  if (shared_ && std::uncaught_exceptions() > exceptions_) // the last good state is written
-    shared_->shares().gather_on_lead(context_.last_good);
+  if (std::uncaught_exceptions() > exceptions_) // the last good state is written
+    work.shared->shares().gather_on_lead(context_.last_good);
 }
 
-double Stage::update_contacts(double safety) {
+double Stage::update_contacts() {
   times_.end(StepLine::others);
   const std::int64_t searches = work.contact.searches;
   contacts_.evaluate(context_, work.contact, context_.log);
@@ -113,30 +111,30 @@ double Stage::update_contacts(double safety) {
   return longest;
 }
 
-void Stage::update_loads(double time, const Stepping& stepping) {
-  time_step_ = stepping.time_step; // it may have become shorter since nodes were split
-  advance_columns(work.resolved, context_.state, {time, stepping.time_step, stepping.kick});
-  update_supports(work.resolved, time + 0.5 * stepping.time_step);
-  advance_bolts();
-  update_external(work.resolved, time, &context_.state.velocity);
+void Stage::update_loads(const Stepping* stepping) {
+  ResolvedConditions& r = work.resolved;
+  const double time = context_.state.time;
+  if (stepping) {
+    time_step_ = stepping->time_step; // it may have become shorter since nodes were split
+    advance_columns(r, context_.state, {time, stepping->time_step, stepping->kick});
+    update_supports(r, time + 0.5 * stepping->time_step);
+  } else if (r.bolts.empty()) {
+    return;
+  }
+  if (!r.bolts.empty())
+    advance_bolts(r.bolts, context_.state, r.varying[r.bolt_load].forces);
+  update_external(r, time, moving());
   times_.end(StepLine::loads);
 }
 
 double Stage::update_crack_pressures(double stable) {
   std::vector<CrackLoad>& cracks = work.resolved.cracks;
-  cdem::update_crack_pressures(context_.model, context_.state, shared_.get(), context_.state.time, cracks);
+  cdem::update_crack_pressures(context_.model, context_.state, work.part().mesh_chunks(), context_.state.time,
+                               cracks);
   return crack_time_step(cracks, stable);
 }
 
-void Stage::carry_water() {
-  carry(work.resolved.water_mass);
-}
-
-void Stage::drop_water() {
-  carry({});
-}
-
-void Stage::carry(const std::vector<double>& water) {
+void Stage::carry_water(const std::vector<double>& water) {
   State& state = context_.state;
   if (water.empty() && state.moving_mass.empty())
     return;
@@ -148,19 +146,6 @@ void Stage::carry(const std::vector<double>& water) {
   const double before = kinetic_energy(context_.model, state);
   state.moving_mass = std::move(masses);
   state.spent.external += kinetic_energy(context_.model, state) - before;
-}
-
-void Stage::update_loads_at_rest() {
-  if (work.resolved.bolts.empty())
-    return;
-  advance_bolts();
-  update_external(work.resolved, context_.state.time, moving());
-  times_.end(StepLine::loads);
-}
-
-void Stage::advance_bolts() {
-  if (ResolvedConditions& r = work.resolved; !r.bolts.empty())
-    cdem::advance_bolts(r.bolts, context_.state, r.varying[r.bolt_load].forces);
 }
 
 void Stage::end_step(double time_step) {
@@ -192,25 +177,21 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
   std::int64_t broken = 0;
   work.hand_over_due = is_due(hand_over_every);
   if (work.strain_step > 0) {
-    if (shared_)
-      shared_->parted(context_.state);
-    for_chunks(work.mesh_chunks(context_.model), context_.threads, [&](std::int64_t c) {
+    work.shared->parted(context_.state);
+    for_chunks(work.part().mesh_chunks(), context_.threads, [&](std::int64_t c) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
         mesh_forces(context_.model, context_.state, work, c, breaking_);
     });
     work.strain_step = 0;
-    if (shared_)
-      shared_->share_nodes(context_.state); // for the stress beside faces of others
+    work.shared->share_nodes(context_.state); // for the stress beside faces of others
     BegunCracks begun;
     if (breaking_ && !context_.model.mesh.sides.empty()) {
       work.near.forget();
-      begun = begin_cracks();
+      begun = begun_cracks();
     }
-    if (shared_) {
-      std::int64_t tellers = has_to_tell(work, begun) ? 1 : 0;
-      ranks().sum(&tellers, 1);
-      share_sums(work, begun, tellers);
-    }
+    std::int64_t tellers = has_to_tell(work, begun) ? 1 : 0;
+    ranks().sum(&tellers, 1);
+    share_sums(work, begun, tellers);
     // Faces break and slide to where the nodes are too; the next step finds nothing left to do.
     broken = record_face_breaks(context_.model, context_.state, work, log, context_.number, step - 1) +
              record_begun_cracks(context_.model, context_.state, begun, log, context_.number, step - 1);
@@ -247,7 +228,7 @@ void Stage::look_over() {
 
 // Each rank looks at its share; what is wrong is told of by all, as one that sees everything.
 void Stage::require_sound_state() {
-  if (shared_ && !ranks().any(!share_is_sound(context_.model, context_.state, work, run_away_)))
+  if (!ranks().alone() && !ranks().any(!share_is_sound(context_.model, context_.state, work, run_away_)))
     return;
   see_whole();
   require_sound(context_.model, context_.state, run_away_, here());
@@ -255,7 +236,7 @@ void Stage::require_sound_state() {
 }
 
 void Stage::look_for_escapes() {
-  if (shared_ && !ranks().any(any_is_out(context_.model, context_.state, escapes, shared_->part().nodes())))
+  if (!ranks().any(any_is_out(context_.model, context_.state, escapes, work.part().nodes())))
     return;
   see_whole();
   bool holds = false;
@@ -273,10 +254,10 @@ void Stage::look_for_escapes() {
   update_external(work.resolved, context_.state.time, moving());
 }
 
-void Stage::watch(const StepReport& report) {
+void Stage::watch() {
   if (std::exchange(sampled_start_, false))
     context_.log.history.back().residual = report.residual;
-  record_step(report);
+  record_step();
   if (!finite(report.sums)) {
     see_whole();
     require_sound(context_.model, context_.state, run_away_, here());
@@ -293,20 +274,20 @@ void Stage::watch(const StepReport& report) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
     if (in_real_time && !scale_masses)
-      carry_water();
+      carry_water(work.resolved.water_mass);
     update_external(work.resolved, context_.state.time, moving());
   }
   if (context_.log.due(context_.state.step))
-    sample(report);
+    sample();
   if (is_due(look_every) && !context_.log.watches.empty()) {
     see_whole();
     look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   }
   times_.end(StepLine::watch);
-  poll(report);
+  poll();
 }
 
-void Stage::record_step(const StepReport& report) {
+void Stage::record_step() {
   const Model& model = context_.model;
   EnergyLedger& spent = context_.state.spent;
   broken_in_step_ = std::exchange(broken_between_, 0);
@@ -337,7 +318,7 @@ void Stage::release_parted_blocks() {
     work.contact.told_due[block] |= released.blocks[block];
 }
 
-void Stage::poll(const StepReport& step_report) {
+void Stage::poll() {
   if (step % poll_every == 0) {
     CheckpointWriter* const checkpoints = context_.checkpoints;
     if (context_.observer.stop_requested()) {
@@ -348,11 +329,11 @@ void Stage::poll(const StepReport& step_report) {
     if (checkpoints && checkpoints->wanted())
       checkpoints->write(false);
     if (progress_.due())
-      report(step_report, false);
+      tell(false);
     show();
   }
   if (step == 1 || (context_.from && step == context_.from->step + 1))
-    report(step_report, false);
+    tell(false);
 }
 
 void Stage::show() {
@@ -360,8 +341,7 @@ void Stage::show() {
     return;
   PictureWish wish;
   wish.field = context_.observer.wanted_field();
-  if (shared_)
-    ranks().broadcast(wish.field); // rank 0 draws
+  ranks().broadcast(wish.field); // rank 0 draws
   const SynchronisedView view(*this,
                               needs_whole(wish) ? SynchronisedView::Of::whole : SynchronisedView::Of::shares);
   Snapshot shown = make_picture_snapshot(context_.model, context_.state, wish, "");
@@ -371,16 +351,16 @@ void Stage::show() {
   context_.observer.view(shown);
 }
 
-StageResult Stage::finish(const StepReport& step_report) {
+StageResult Stage::finish() {
   look_over();
   see_whole();
   look_at_units(context_.model, context_.state, context_.conditions, context_.log);
-  sample(step_report);
+  sample();
   times_.end(StepLine::watch);
-  report(step_report, true);
+  tell(true);
   if (!kept_end_)
     keep_last_good(); // last: whoever ends a stage before goes on from the restart point and the state that stood there
-  return {step, step_report.residual, context_.log.broken_tension - broken_tension_before_,
+  return {step, report.residual, context_.log.broken_tension - broken_tension_before_,
           context_.log.broken_shear - broken_shear_before_, wall_time()};
 }
 
@@ -397,7 +377,7 @@ void Stage::sample_start() {
   sampled_start_ = true;
 }
 
-void Stage::sample(const StepReport& report) {
+void Stage::sample() {
   std::optional<SynchronisedView> view;
   if (!context_.log.probes.empty())
     view.emplace(*this, SynchronisedView::Of::whole);
@@ -407,7 +387,7 @@ void Stage::sample(const StepReport& report) {
                  report.residual, report.sums.kinetic);
 }
 
-void Stage::report(const StepReport& report, bool last) {
+void Stage::tell(bool last) {
   Progress progress = report.goals;
   progress.stage = context_.number;
   progress.kind = kind_;
@@ -420,7 +400,7 @@ void Stage::report(const StepReport& report, bool last) {
         times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew: {}", shared_anew_) : "");
   if (details)
     details(progress);
-  if (shared_)
+  if (!loads_.empty())
     progress.note += (progress.note.empty() ? "" : ", ") + ("loads of the ranks " + loads_);
   progress_(std::move(progress), last);
 }

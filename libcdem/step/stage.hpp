@@ -1,18 +1,6 @@
-// A stage: the steps of one loop of a solving call, and the watch over them. A step reads, in the loop of the caller,
-//
-//   keep_restart_point       where the stage can be left
-//   update_contacts          contacts for where the nodes are; the longest step that they leave
-//   renew_interfaces         of blocks that have slid past each other: the model has other springs then
-//   split_nodes              of cohesive bodies, where faces near their strength: the model is another one then
-//   update_crack_pressures   pressures of fluids in cracks; the longest step that they leave
-//   update_loads             loads at this time
-//   advance                  begin_cracks; bond_forces; element_forces; shared_node_forces; rigid_bodies; what other
-//                            ranks have computed
-//   end_step                 everything has moved on by the time step
-//   watch                    energies, breaks, soundness, histories, progress, stop
-//
-// Each is a line of StepTimes. Between two steps, the stress of meshes and the contacts are a step behind the nodes.
-// synchronise advances them; SynchronisedView does so for code that only reads the state.
+// A stage: the steps of one loop of a solving call (step.cpp), and the watch over them. Between two steps, the stress of
+// meshes and the contacts are a step behind the nodes. synchronise advances them; SynchronisedView does so for code that
+// only reads the state.
 #pragma once
 
 #include "libcdem/fracture/begin_cracks.hpp"
@@ -25,8 +13,8 @@
 #include "libcdem/step/share_sums.hpp"
 #include "libcdem/step/soundness.hpp"
 #include "libcdem/step/stage_context.hpp"
-#include "libcdem/step/step_loops.hpp"
 #include "libcdem/step/step_times.hpp"
+#include "libcdem/step/timed_look.hpp"
 
 #include <exception>
 #include <memory>
@@ -41,6 +29,9 @@ inline constexpr std::int64_t watch_every = 200;
 inline constexpr std::int64_t hand_over_every = 20;
 static_assert(watch_every % hand_over_every == 0,
               "a stage that goes on looks anew where it did when it was left");
+
+class Procedure; // step.hpp
+
 class Stage {
 public:
   // run_away: displacement that ends the stage with a SolutionError, m.
@@ -52,70 +43,49 @@ public:
   Workspace work;
   std::int64_t step = 0;                  // within the stage
   std::function<void(Progress&)> details; // adds to what the progress line shows; may be empty
-  // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
-  bool in_real_time = true;           // velocities are per second: strength may depend on the rate
+  bool breaking = true;                   // bonds may break
+  double safety = 1;                      // the longest step over the stable one
+  bool in_real_time = true; // velocities are per second: strength may depend on the rate, nodes join again
   std::function<void()> scale_masses; // after nodes have been freed; may be empty
+  // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
   bool follows_fragments = false;
-  std::vector<Node>* carried = nullptr; // by node, that the loop carries beside the State; may be null
+  std::vector<Node>* carried = nullptr; // by node, that the procedure carries beside the State; may be null
   EscapeLimits escapes;                 // where pieces have left the model
+  std::vector<TimedLook> looks;         // after a step
+  struct Report {
+    NodeSums sums; // of the last step
+    double residual = 0;
+    Progress goals; // residual_goal, time_start, time_goal, max_steps
+  };
+  Report report;
 
   // The first row of the history: how things stand where the stage begins. Its residual comes with the first step, which
   // finds the forces there.
   void sample_start();
 
-  // True at the head of a step at which the loop calls keep_restart_point, with what it carries from step to step.
-  bool can_be_left() const { return step > 0 && is_due(watch_every); }
   bool begins() const { return begins_ && step == 0; }
   // After so many steps of the model there is a look.
   bool is_due(std::int64_t every) const { return context_.state.step % every == 0; }
-  // Keeps the state and, where the stage may be left, the restart point that goes with it: both or neither.
-  void keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force = {});
-  // The end of the stage as a point from which another one may go on, which calls its first step 0. Before finish.
-  void keep_end(std::vector<double> loop_state);
-  // To the state that was kept last, after an error.
-  void go_back();
 
-  // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
-  // stage can be left here (keep_restart_point). time_step: s, of the steps to come.
-  bool split_nodes(double time_step);
-  // Joins freed nodes where nothing has cracked and the body has come to rest. True when it has: arrays by node are others now,
-  // the stable step may be longer, and the stage can be left here.
-  bool join_nodes();
-  // Gives interfaces that have slid new springs (fracture/renew_interfaces.hpp). True when it has: the stable step is
-  // another one, and the stage can be left here.
-  bool renew_interfaces();
-
-  // Returns the longest step that contacts leave, s, `safety` times the stable one; infinite without contacts. Throws
-  // SolutionError when something has gone too deep.
-  double update_contacts(double safety = 1);
-  // s, for rigid bodies in flight (contact/response/contact_bounds.hpp); after update_contacts.
+  // Steps until the procedure is over. Throws SolutionError, Interrupted.
+  void make_steps(Procedure&);
+  // For procedures. s, for rigid bodies in flight (contact/response/contact_bounds.hpp); when contacts are known.
   double longest_step_of_flight() const { return contacts_.longest_step_of_flight(context_, work); }
   // Pressures in cracks at this time. Returns the longest stable step, s, that pumped fluids leave to a mesh whose own is
   // `stable`.
   double update_crack_pressures(double stable);
-  // Updates loads, supports that vary and free fields for the step that begins at `time` (s).
-  void update_loads(double time, const Stepping&);
-  void update_loads_at_rest(); // in a relaxation: of what follows the rock
-  // All forces where the nodes are, and move(nodes, forces, sums), move_rigid(rigid body, sums), place_rigid(rigid body)
-  // (step_loops.hpp). Returns the sums over all chunks.
-  template <class Move, class MoveRigid>
-  NodeSums advance(bool breaking, const Move& move, const MoveRigid& move_rigid,
-                   const std::function<void(int)>& place_rigid = {});
-  void end_step(double time_step); // s; steps of unit length in a relaxation
-
-  // Throws SolutionError, Interrupted.
-  struct StepReport {
-    NodeSums sums;
-    double residual = 0;
-    Progress goals; // residual_goal, time_start, time_goal, max_steps
-  };
-  // In real time the water that moves with the nodes (load/water_forces.hpp) adds to their inertia; the kinetic energy
-  // that changes with it is work of the water. Not beside scaled masses.
-  void carry_water();
-  void drop_water(); // at the end of a stage
-  void watch(const StepReport&);
-  StageResult finish(const StepReport&); // what results read, last history row and progress
+  // Loads, supports that vary and free fields for the step that begins; null: of a relaxation, what follows the rock.
+  void update_loads(const Stepping*);
   std::int64_t broken_in_step() const { return broken_in_step_; }
+
+  // The end of the stage as a point from which another one may go on, which calls its first step 0. Before finish.
+  void keep_end(std::vector<double> loop_state);
+  // To the state that was kept last, after an error.
+  void go_back();
+  // In real time the water that moves with the nodes (load/water_forces.hpp) adds to their inertia; the kinetic energy
+  // that changes with it is work of the water. Not beside scaled masses. water: kg (n_nodes); empty: none any more.
+  void carry_water(const std::vector<double>& water);
+  StageResult finish(); // what results read, last history row and progress
 
   // The state of all ranks, for who looks at the whole of it, or at what a search for contacts reads and an array by node beside it.
   void see_whole();
@@ -126,8 +96,35 @@ public:
 
 private:
   friend class SynchronisedView;
+
+  void make_step(Procedure&);
+  // Gives interfaces that have slid new springs (fracture/renew_interfaces.hpp). True when it has: the stable step is
+  // another one, and the stage can be left here.
+  bool renew_interfaces();
+  // Frees the nodes whose time it is. True when it has: arrays by node are others now, the stable step is shorter, and the
+  // stage can be left here. time_step: s, of the steps to come.
+  bool split_nodes(double time_step);
+  // Joins freed nodes where nothing has cracked and the body has come to rest. True when it has: arrays by node are others now,
+  // the stable step may be longer, and the stage can be left here.
+  bool join_nodes();
+  bool can_be_left() const { return step > 0 && is_due(watch_every); }
+  // Keeps the state and, where the stage may be left, the restart point that goes with it: both or neither.
+  void keep_restart_point(std::vector<double> loop_state);
+  // Returns the longest step that contacts leave, s; infinite without contacts. Throws SolutionError when something has
+  // gone too deep.
+  double update_contacts();
+  void begin_forces();
+  void begin_cracks(); // of cohesive bodies
+  void bond_forces();
+  void element_forces(Procedure&);
+  void shared_node_forces(Procedure&);
+  void rigid_bodies(Procedure&);
+  void sum_up();
+  void end_step(double time_step); // s; steps of unit length in a relaxation
+  void watch();
+
   void go_on_from(const RestartPoint&);
-  void note(RestartPoint&, std::vector<double> loop_state, const std::vector<Node>& previous_force) const;
+  void note(RestartPoint&, std::vector<double> loop_state) const;
   void share(); // with other ranks, when there are any
   void start_watch();
   void warn_of_idle_ranks() const;
@@ -135,34 +132,30 @@ private:
   bool left_alone() const;    // by an error that the other ranks, which are elsewhere, do not have
   void require_sound_state(); // Throws SolutionError
   void keep_last_good();      // of this rank's share
-  void note_last_good();      // what goes with it
   void give_back();           // memory of what other ranks own
   void synchronise_contacts(RunLog&);
   std::int64_t synchronise_stress(RunLog&);      // returns how many springs broke, of which the log is told
-  BegunCracks begin_cracks();                    // what share_sums sends
+  BegunCracks begun_cracks();                    // what share_sums sends
   std::vector<std::uint8_t> near_of_all() const; // NearStrength::bits of all ranks
   void take_near(std::vector<std::uint8_t> of_all);
   void change_nodes(Freed);
 
-  void advance_bolts();
-  void carry(const std::vector<double>& water); // kg (n_nodes); empty: none
   // m/s, of the nodes, for loads that depend on it; null in a relaxation, whose velocities are lengths per step.
   const std::vector<Node>* moving() const { return in_real_time ? &context_.state.velocity : nullptr; }
   double wall_time() const; // s
   StageStep here() const { return {context_.number, kind_, step}; }
-  void record_step(const StepReport&); // energies and breaks
+  void record_step(); // energies and breaks
   void release_parted_blocks();
-  void look_over();               // the state is sound and up to date
-  void look_for_escapes();        // the state is caught up
-  void sample(const StepReport&); // a row of the history
-  void poll(const StepReport&);   // stop, checkpoints, progress
-  void report(const StepReport&, bool last);
-  void show(); // to an observer who wants to see the model
+  void look_over();        // the state is sound and up to date
+  void look_for_escapes(); // the state is caught up
+  void sample();           // a row of the history
+  void poll();             // stop, checkpoints, progress
+  void tell(bool last);    // progress
+  void show();             // to an observer who wants to see the model
 
   StageContext context_;
-  std::unique_ptr<SharedState> shared_; // null where this rank is alone
-  bool sampled_start_ = false;          // the last row of the history waits for its residual
-  bool gave_back_ = false;              // since it was last shared
+  bool sampled_start_ = false; // the last row of the history waits for its residual
+  bool gave_back_ = false;     // since it was last shared
   int exceptions_ = std::uncaught_exceptions();
   int shared_anew_ = 0; // how often
   std::string loads_;   // of the ranks, when they were last counted
@@ -179,7 +172,7 @@ private:
   double good_strain_step_ = 0;
   std::size_t good_breaks_ = 0;
   OneWayEnergies good_one_way_;
-  bool has_shared_nodes_;
+  bool has_shared_nodes_ = false; // some node is touched by several chunks
   std::string kind_;
   double run_away_;
   bool breaking_ = false;                                // in the last step
@@ -188,47 +181,6 @@ private:
   std::chrono::steady_clock::time_point start_;
   ProgressReporter progress_;
 };
-
-template <class Move, class MoveRigid>
-NodeSums Stage::advance(bool breaking, const Move& move, const MoveRigid& move_rigid,
-                        const std::function<void(int)>& place_rigid) {
-  const Model& model = context_.model;
-  State& state = context_.state;
-  work.hand_over_due = is_due(hand_over_every);
-  const int threads = context_.threads;
-  breaking_ = breaking;
-  if (shared_)
-    shared_->parted(state);
-  if (breaking && !model.mesh.sides.empty()) {
-    begun_ = begin_cracks();
-    times_.end(StepLine::cracks);
-  }
-  if (!model.point_chunks.empty()) {
-    bond_forces(model, state, work, threads, breaking);
-    times_.end(StepLine::bonds);
-  }
-  element_forces(model, state, work, threads, breaking, move);
-  times_.end(StepLine::elements);
-  if (has_shared_nodes_) {
-    shared_node_forces(model, state, work, threads, move);
-    times_.end(StepLine::shared_nodes);
-  }
-  work.near.crack_known = breaking && work.watch;
-  work.near.due_known = work.near.crack_known && work.strain_step > 0;
-  if (!model.rigid.empty()) {
-    rigid_bodies(model, state, work, threads, move_rigid, place_rigid);
-    times_.end(StepLine::rigid_bodies);
-  }
-  if (shared_)
-    shared_->share_nodes(state);
-  std::int64_t tellers = has_to_tell(work, begun_) ? 1 : 0;
-  const NodeSums sums = sums_of(work, tellers);
-  if (shared_) {
-    share_sums(work, begun_, tellers);
-    times_.end(StepLine::ranks);
-  }
-  return sums;
-}
 
 // Number of the allowed threads that the model keeps busy.
 int useful_threads(const Model&, int threads);

@@ -1,6 +1,7 @@
 // Places of a stage where the model becomes another one: nodes of cohesive bodies are freed, interfaces that have slid get
 // new springs. What is known of the model before is carried over or made anew, and the stage can be left there.
 #include "libcdem/bond/release.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/fracture/renew_interfaces.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/results/energy.hpp"
@@ -30,22 +31,22 @@ std::vector<int> new_nodes_of_unchanged(const Model& before, const Model& now) {
 
 bool Stage::split_nodes(double time_step) {
   time_step_ = time_step;
-  if (watch_.empty() || !context_.changing)
+  if (!breaking || watch_.empty() || !context_.changing)
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
   const double ahead = 2 * time_step;
   if (!work.near.crack_known)
-    watch_.look(model, state, work.mesh_chunks(model), context_.threads, work.near);
+    watch_.look(model, state, work.part().mesh_chunks(), context_.threads, work.near);
   const bool rates_unknown = begins_ && step <= 1; // how stresses rise is known from velocities alone
   const std::vector<char> bodies =
-      watch_.due(model, state, work.near, shared_.get(), context_.threads, ahead, rates_unknown);
+      watch_.due(model, state, work.near, work.part().mesh_chunks(), context_.threads, ahead, rates_unknown);
   bool due = std::find(bodies.begin(), bodies.end(), 1) != bodies.end();
   std::vector<char> nodes;
   if (due) {
     synchronise_contacts(context_.log); // of the step to come, as their forces are not renumbered
     see_whole();
-    nodes = watch_.to_free(model, state, bodies, nullptr, context_.threads, ahead);
+    nodes = watch_.to_free(model, state, bodies, context_.threads, ahead);
     due = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
   }
   if (due)
@@ -55,13 +56,14 @@ bool Stage::split_nodes(double time_step) {
 }
 
 bool Stage::join_nodes() {
-  if (watch_.empty() || !context_.changing || context_.renumbered || !is_due(watch_every))
+  if (!breaking || !in_real_time || watch_.empty() || !context_.changing || context_.renumbered ||
+      !is_due(watch_every))
     return false;
   const Model& model = context_.model;
   State& state = context_.state;
   if (std::find(model.mesh.freed.begin(), model.mesh.freed.end(), 1) == model.mesh.freed.end())
     return false;
-  const std::vector<char> nodes = watch_.to_join(model, state, shared_.get(), context_.threads);
+  const std::vector<char> nodes = watch_.to_join(model, state, work.part().mesh_chunks(), context_.threads);
   const bool any = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
   if (any) {
     synchronise_contacts(context_.log);
@@ -111,9 +113,8 @@ void Stage::change_nodes(Freed freed) {
   }
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact, false);
-  has_shared_nodes_ = has_shared_nodes(model);
   if (!scale_masses)
-    carry_water();
+    carry_water(work.resolved.water_mass);
   update_external(work.resolved, state.time, moving());
   if (std::find(freed.anew.begin(), freed.anew.end(), 1) == freed.anew.end())
     return;
@@ -126,16 +127,18 @@ void Stage::change_nodes(Freed freed) {
 void Stage::start_watch() {
   work.watch = watch_.empty() ? nullptr : &watch_;
   work.near = {};
-  work.near.bits.assign(context_.model.mesh.batches.size(), NearStrength::may_crack);
+  const MeshData& mesh = context_.model.mesh;
+  work.near.bits.assign(mesh.batches.size(), NearStrength::may_crack);
+  has_shared_nodes_ = std::any_of(mesh.chunks.begin(), mesh.chunks.end(), [](const MeshChunk& chunk) {
+    return !chunk.stars && chunk.inner_end < chunk.nodes.end;
+  });
 }
 
 std::vector<std::uint8_t> Stage::near_of_all() const {
-  const std::vector<std::uint8_t>& bits = work.near.bits;
-  if (!shared_)
-    return bits;
-  const std::vector<std::int64_t>& begin = shared_->shares().batch_begin();
-  const int rank = shared_->part().rank;
-  const std::string own(bits.begin() + begin[rank], bits.begin() + begin[rank + 1]);
+  const StateShares& shares = work.shared->shares();
+  const Range own_bits = shares.own(shares.batch_begin());
+  const auto bits = work.near.bits.begin();
+  const std::string own(bits + own_bits.begin, bits + own_bits.end);
   std::vector<std::uint8_t> all;
   for (const std::string& of_rank : ranks().gather(own))
     all.insert(all.end(), of_rank.begin(), of_rank.end());
@@ -146,28 +149,24 @@ std::vector<std::uint8_t> Stage::near_of_all() const {
 void Stage::take_near(std::vector<std::uint8_t> of_all) {
   work.near.bits = std::move(of_all);
   work.near.crack_known = true;
-  if (!shared_)
-    return;
-  const std::vector<std::int64_t>& begin = shared_->shares().batch_begin();
+  const StateShares& shares = work.shared->shares();
+  const Range own = shares.own(shares.batch_begin());
   const auto bits = work.near.bits.begin();
-  const int rank = shared_->part().rank;
-  std::fill(bits, bits + begin[rank], NearStrength::may_crack);
-  std::fill(bits + begin[rank + 1], work.near.bits.end(), NearStrength::may_crack);
+  std::fill(bits, bits + own.begin, NearStrength::may_crack);
+  std::fill(bits + own.end, work.near.bits.end(), NearStrength::may_crack);
 }
 
-BegunCracks Stage::begin_cracks() {
+BegunCracks Stage::begun_cracks() {
   const Model& model = context_.model;
   State& state = context_.state;
-  const Range chunks = work.mesh_chunks(model);
+  const Range chunks = work.part().mesh_chunks();
   if (!work.near.crack_known)
     watch_.look(model, state, chunks, context_.threads, work.near);
   const CrackingStep cracking{work.strain_step, time_step_, in_real_time, context_.threads};
   BegunCracks begun = cdem::begin_cracks(model, state, watch_, work.near, chunks, cracking);
-  if (shared_)
-    share_reliefs(begun);
+  share_reliefs(begun);
   relieve(model, state, begun, chunks, cracking);
-  if (shared_)
-    shared_->share_faces(state);
+  work.shared->share_faces(state);
   return begun;
 }
 
@@ -179,11 +178,9 @@ bool Stage::renew_interfaces() {
   synchronise_contacts(context_.log);
   see_whole();
   BondWork before = std::move(work.bond);
-  if (shared_) {
-    shared_->shares().gather_points(before.spring_force);
-    shared_->shares().gather_points(before.stretch);
-    shared_->shares().gather_points(before.viscous);
-  }
+  work.shared->shares().gather_points(before.spring_force);
+  work.shared->shares().gather_points(before.stretch);
+  work.shared->shares().gather_points(before.viscous);
   for (const int i : slid_)
     state.spent.friction += catch_up(model, state, before, model.interfaces[i]);
   const RenewedInterfaces renewed =

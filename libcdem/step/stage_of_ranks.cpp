@@ -51,8 +51,10 @@ std::vector<std::int32_t> nodes_of_bolts(const ResolvedConditions& r) {
 } // namespace
 
 void Stage::share() {
-  if (ranks().alone())
+  if (ranks().alone()) {
+    work.shared = std::make_shared<SharedState>(context_.model);
     return;
+  }
   if (gave_back_) { // loads on nodes that others owned
     ResolvedConditions whole = resolve(context_.model, context_.state, context_.conditions);
     work.resolved.external = std::move(whole.external);
@@ -62,15 +64,15 @@ void Stage::share() {
   }
   const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
   const std::vector<double> loads = chunk_loads(context_.model, context_.state, all);
-  shared_ = std::make_unique<SharedState>(context_.model, nodes_of_bolts(work.resolved), loads);
-  loads_ = in_words(shares_of_load(loads, shared_->part().chunk_begin));
-  work.shared = work.contact.shared = shared_.get();
+  work.shared = std::make_shared<SharedState>(context_.model, nodes_of_bolts(work.resolved), loads);
+  work.contact.shared = work.shared.get();
+  loads_ = in_words(shares_of_load(loads, work.part().chunk_begin));
 }
 
 void Stage::warn_of_idle_ranks() const {
   static bool told = false; // once is enough
   const auto chunks = static_cast<int>(context_.model.chunks.size()), idle = ranks().size() - chunks;
-  if (!shared_ || told || idle <= 0)
+  if (told || idle <= 0)
     return;
   told = true;
   context_.observer.warning_of_machine(
@@ -80,9 +82,9 @@ void Stage::warn_of_idle_ranks() const {
 
 // A body that breaks on one side costs more there. What is read of others is found anew with the contacts.
 void Stage::share_anew() {
-  if (!shared_)
+  if (ranks().alone())
     return;
-  const Partition& part = shared_->part();
+  const Partition& part = work.part();
   const std::vector<double> own = chunk_loads(context_.model, context_.state, part.chunks());
   std::vector<double> loads(context_.model.chunks.size());
   std::copy(own.begin(), own.end(), loads.begin() + part.chunks().begin);
@@ -96,11 +98,11 @@ void Stage::share_anew() {
     return;
   const std::string before = loads_;
   see_whole();
-  shared_->shares().gather_points(work.bond.spring_force);
-  shared_->shares().gather_points(work.bond.stretch);
-  shared_->shares().gather_points(work.bond.viscous);
+  work.shared->shares().gather_points(work.bond.spring_force);
+  work.shared->shares().gather_points(work.bond.stretch);
+  work.shared->shares().gather_points(work.bond.viscous);
   if (carried)
-    shared_->shares().gather_nodes(*carried);
+    work.shared->shares().gather_nodes(*carried);
   share();
   work.contact.fragments_due = work.contact.all_due = true;
   ++shared_anew_;
@@ -111,30 +113,23 @@ void Stage::share_anew() {
 }
 
 void Stage::give_back() {
-  if (!shared_ || gave_back_)
+  if (ranks().alone() || gave_back_)
     return;
   gave_back_ = true;
-  park(context_.model, shared_->shares());
+  park(context_.model, work.shared->shares());
   for (std::vector<Node>* of_nodes : {&work.resolved.external, &work.resolved.constant})
-    release_outside(*of_nodes, shared_->shares().kept_nodes());
+    release_outside(*of_nodes, work.shared->shares().kept_nodes());
   release_zeros(work.partial);
   release_zeros(work.contact.force);
   release_zeros(work.contact.stiffness);
   trim_heap(); // what building and looking at the whole has left
 }
 
-void Stage::note_last_good() {
+void Stage::keep_last_good() {
   good_strain_step_ = work.strain_step;
   good_breaks_ = context_.log.breaks.size();
   good_one_way_ = context_.log.one_way;
-}
-
-void Stage::keep_last_good() {
-  note_last_good();
-  if (shared_)
-    shared_->keep(context_.state, context_.last_good);
-  else
-    context_.last_good = context_.state;
+  work.shared->keep(context_.state, context_.last_good);
 }
 
 void Stage::go_back() {
@@ -147,19 +142,16 @@ void Stage::go_back() {
 }
 
 void Stage::see_whole() {
-  if (shared_)
-    shared_->gather(context_.state);
+  work.shared->gather(context_.state);
 }
 
 void Stage::see_surfaces(std::vector<Node>& by_node) {
-  if (!shared_)
-    return;
-  shared_->gather_surfaces(context_.state);
-  shared_->shares().gather_nodes(by_node);
+  work.shared->gather_surfaces(context_.state);
+  work.shared->shares().gather_nodes(by_node);
 }
 
 bool Stage::left_alone() const {
-  return shared_ && std::uncaught_exceptions() > exceptions_ && !ranks().all_fail(Ranks::patience);
+  return std::uncaught_exceptions() > exceptions_ && !ranks().all_fail(Ranks::patience);
 }
 
 } // namespace cdem

@@ -6,7 +6,7 @@
 
 namespace cdem {
 
-void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector<Node>& previous_force) {
+void Stage::keep_restart_point(std::vector<double> loop_state) {
   if (can_be_left())
     share_anew();
   keep_last_good();
@@ -18,7 +18,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state, const std::vector
     return;
   point.step = step;
   point.wall_time = wall_time();
-  note(point, std::move(loop_state), previous_force);
+  note(point, std::move(loop_state));
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
   contacts_.start_anew(context_.model, work.contact, true);
@@ -34,28 +34,21 @@ void Stage::keep_end(std::vector<double> loop_state) {
   keep_last_good();
   kept_end_ = true;
   RestartPoint point;
-  note(point, std::move(loop_state), {});
+  note(point, std::move(loop_state));
   *context_.restart_point = std::move(point);
 }
 
-void Stage::note(RestartPoint& point, std::vector<double> loop_state,
-                 const std::vector<Node>& previous_force) const {
+void Stage::note(RestartPoint& point, std::vector<double> loop_state) const {
+  const std::vector<Node> none, &previous_force = carried ? *carried : none;
   point.begun = true;
   point.breaks = context_.log.breaks.size();
   point.one_way = context_.log.one_way;
   point.loop_state = std::move(loop_state);
-  if (shared_) {
-    const StateShares& shares = shared_->shares();
-    StateShares::copy(previous_force, point.previous_force, shares.nodes());
-    StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
-    StateShares::copy(work.bond.stretch, point.stretch, shares.points());
-    StateShares::copy(work.bond.viscous, point.viscous, shares.points());
-  } else {
-    point.previous_force = previous_force;
-    point.spring_force = work.bond.spring_force;
-    point.stretch = work.bond.stretch;
-    point.viscous = work.bond.viscous;
-  }
+  const StateShares& shares = work.shared->shares();
+  StateShares::copy(previous_force, point.previous_force, shares.nodes());
+  StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
+  StateShares::copy(work.bond.stretch, point.stretch, shares.points());
+  StateShares::copy(work.bond.viscous, point.viscous, shares.points());
   point.contact_step = work.contact.last_step;
   point.strain_step = work.strain_step;
   point.near = work.near.crack_known ? near_of_all() : std::vector<std::uint8_t>();
@@ -64,7 +57,6 @@ void Stage::note(RestartPoint& point, std::vector<double> loop_state,
 }
 
 void Stage::go_on_from(const RestartPoint& from) {
-  context_.last_good = context_.state;
   if (context_.restart_point)
     *context_.restart_point = from;
   step = from.step;

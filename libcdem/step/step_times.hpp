@@ -9,7 +9,7 @@
 
 namespace cdem {
 
-// The lines of a step, in their order (step/stage.hpp).
+// The lines of a step, in their order (step/step.cpp).
 enum class StepLine {
   contact_search, // contacts, in the steps that search anew
   contacts,       // in all others

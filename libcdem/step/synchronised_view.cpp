@@ -45,13 +45,11 @@ SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
 }
 
 void SynchronisedView::require_same_looks() const {
-  if (stage_.shared_)
-    agree_on_look(Look::ended);
+  agree_on_look(Look::ended);
 }
 
 SynchronisedView::~SynchronisedView() {
-  if (stage_.shared_)
-    stage_.shared_->look_at(stage_.context_.state);
+  stage_.work.shared->look_at(stage_.context_.state);
   if (!kept_)
     return;
   State& state = stage_.context_.state;
@@ -63,10 +61,8 @@ SynchronisedView::~SynchronisedView() {
   work.strain_step = kept_->strain_step;
   work.hand_over_due = kept_->hand_over_due;
   copy_advancing_fields(kept_->state, state);
-  if (stage_.shared_) { // of others, stresses are those of when they were last gathered
-    stage_.shared_->parted(state);
-    stage_.shared_->part_contacts(state);
-  }
+  work.shared->parted(state); // of others, stresses are those of when they were last gathered
+  work.shared->part_contacts(state);
 }
 
 void look(Stage& stage, const std::vector<TimedLook>& looks, double from, double to) {

@@ -6,26 +6,13 @@ namespace cdem {
 
 Workspace::Workspace(const Model& model, const State& state, const Conditions& conditions)
     : resolved(resolve(model, state, conditions)), bond(model, state), node_sums(model.chunks.size()),
-      rigid_sums(model.rigid.size()), rigid_angle(model.rigid.size(), geom::Vec3::Zero()) {
+      rigid_sums(model.rigid.size()), rigid_angle(model.rigid.size(), geom::Vec3::Zero()),
+      shared(std::make_shared<SharedState>(model)) {
   if (!model.mesh.empty()) {
     partial.resize(static_cast<std::size_t>(model.mesh.chunks.back().partial.end));
     face_sums.resize(model.mesh.chunks.size());
   }
   start_contact(model, contact);
-}
-
-Range Workspace::chunks(const Model& model) const {
-  return shared ? shared->part().chunks() : Range{0, static_cast<std::int64_t>(model.chunks.size())};
-}
-
-Range Workspace::mesh_chunks(const Model& model) const {
-  return shared ? shared->part().mesh_chunks()
-                : Range{0, static_cast<std::int64_t>(model.mesh.chunks.size())};
-}
-
-Range Workspace::point_chunks(const Model& model) const {
-  return shared ? shared->part().point_chunks()
-                : Range{0, static_cast<std::int64_t>(model.point_chunks.size())};
 }
 
 } // namespace cdem

@@ -34,11 +34,9 @@ struct Workspace {
   std::vector<geom::Vec3>
       rigid_angle; // rad, per rigid body, by which it turns in the step; written by move_rigid
 
-  // With several ranks, each of which computes a part; null: this one computes all. Contact knows it too.
-  SharedState* shared = nullptr;
-  Range chunks(const Model&) const;       // of Model::chunks, what this rank computes
-  Range mesh_chunks(const Model&) const;  // of MeshData::chunks, likewise
-  Range point_chunks(const Model&) const; // of Model::point_chunks
+  // What this rank computes and tells the others.
+  std::shared_ptr<SharedState> shared;
+  const Partition& part() const { return shared->part(); }
 
   ActingForces acting() const {
     return {resolved, contact.force, contact.on_rigid, bond.force(), bond.idle.block};
