@@ -30,6 +30,7 @@ struct Simulation::Impl {
   std::shared_ptr<Observer> observer;
   int threads = 1;
   int stage = 0;
+  bool in_stage = false; // which `stage` counts already
   double last_residual = 0;
   std::size_t watches = 0; // made by the script so far
 
@@ -106,18 +107,20 @@ struct Simulation::Impl {
   // Runs one stage, from where it was left if it was; a run from where the one before ended, if that may be.
   template <class Solve>
   auto run_stage(const Solve& solve, const std::array<double, 4>* step_choice = nullptr) {
-    std::optional<RestartPoint> entry;
-    entry.swap(from);
     const struct Leave {
       Impl& s;
       ~Leave() {
+        s.in_stage = false;
         if (s.restart_point) // else the stage was refused before it had begun, and nothing has changed
           s.end_of_run.reset();
         s.restart_point.reset();
       }
     } leave{*this};
-    StageContext context = next_stage();
+    StageContext context = next_stage(); // asks functions of a script, from which the run may be stopped
+    in_stage = true;
     context.restart_point = &restart_point;
+    std::optional<RestartPoint> entry;
+    entry.swap(from);
     if (entry)
       last_good = kept;
     else if (end_of_run && step_choice && end_of_run->step_choice == *step_choice)

@@ -48,6 +48,7 @@ std::string Simulation::Impl::saved() const {
   if (!at_start.empty())
     return at_start;
   const State& then = restart_point ? last_good : kept;
+  const std::optional<RestartPoint>& point = restart_point ? restart_point : from;
   Writer a;
   archive_const(a, built);
   archive_const(a, model.blocks.size());
@@ -65,15 +66,15 @@ std::string Simulation::Impl::saved() const {
     archive_const(a, end_of_run->step_choice);
   }
   archive_const(a, last_residual);
-  archive_const(a, restart_point ? stage - 1 : stage);
-  if (restart_point)
-    write(a, log, then.step, restart_point->breaks, restart_point->one_way);
+  archive_const(a, in_stage ? stage - 1 : stage);
+  if (point)
+    write(a, log, then.step, point->breaks, point->one_way);
   else
     write(a, log, then.step, log.breaks.size(), log.one_way);
-  const bool midway = restart_point && (restart_point->begun || !restart_point->procedure_state.empty());
+  const bool midway = point && (point->begun || !point->procedure_state.empty());
   archive_const(a, midway);
   if (midway)
-    archive_const(a, *restart_point);
+    archive_const(a, *point);
   return a.take();
 }
 

@@ -99,6 +99,20 @@ TEST_CASE("the next run takes the old results away, and nothing else") {
   CHECK(read_file(c.results / "uy.png") == "result uy.png");
 }
 
+TEST_CASE("the first file of a run may lie in a folder of the last one, or have the name of it") {
+  const Case place;
+  place.run({"frames/1.png"});
+  for (const std::string name : {"frames/1.png", "frames", "frames/1.png"}) {
+    OutputFolder output(place.results, place.script, "a run");
+    cdem::script::Files files(place.script, place.results, {}, false);
+    files.will_write = [&](const fs::path& file) { output.will_write(file); };
+    const fs::path file = files.to_write(name);
+    REQUIRE(fs::is_directory(file.parent_path()));
+    write_file(file, "result");
+    output.finish(ExitCode::success, "");
+  }
+}
+
 TEST_CASE("a run that fails before it produces anything leaves the old results") {
   const Case c;
   c.run({"ux.png"});

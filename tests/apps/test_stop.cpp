@@ -87,27 +87,31 @@ TEST_CASE("Ctrl-C ends a check, and SIGTERM a run, that never come back") {
 }
 
 TEST_CASE("a run that is stopped where it never comes back keeps what it had solved") {
-  const TempFolder folder;
-  stopped(
-      folder,
+  const std::string solved =
       module +
-          "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }\n"
-          "local joint = cdem.mohr_coulomb{ cohesion = 1e9, friction_angle = 30, tensile_strength = 1e9 }\n"
-          "local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {2, 1, 1}, divisions = {2, 1, 1} "
-          "},\n  material = rock, joint = joint } } }\n"
-          "model:fix{ on = 'x-' }\nmodel:traction{ on = 'x+', stress = {1e5, 0, 0} }\n"
-          "model:run{ steps = 400 }\nprint('begins', model.state_hash)\n" +
-          endless_pattern);
-  CHECK_THAT(read_file(folder / "out/cdem.log"), Contains("checkpoint; to go on: cdem resume out"));
-  REQUIRE(fs::exists(folder / "out/checkpoint_1.cdem"));
-  Start start;
-  start.folder = folder.path();
-  start.signal = SIGINT;
-  start.signal_after = "goes on";
-  const Outcome again = run_cdem({"resume", "out"}, start);
-  CHECK(again.exit_code == 130);
-  CHECK(again.after_signal < in_time);
-  CHECK_THAT(again.out, Contains("goes on from out/checkpoint_1.cdem, stage 1"));
+      "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }\n"
+      "local joint = cdem.mohr_coulomb{ cohesion = 1e9, friction_angle = 30, tensile_strength = 1e9 }\n"
+      "local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {2, 1, 1}, divisions = {2, 1, 1} "
+      "},\n  material = rock, joint = joint } } }\n"
+      "model:fix{ on = 'x-' }\nmodel:traction{ on = 'x+', stress = {1e5, 0, 0} }\n"
+      "model:run{ steps = 400 }\nprint('begins', model.state_hash)\n";
+  // By itself, and in a function that a call was given.
+  for (const std::string& stuck :
+       {endless_pattern,
+        "model:mean('displacement.x', cdem.select.where(function() " + endless_pattern + "end))\n"}) {
+    const TempFolder folder;
+    stopped(folder, solved + stuck);
+    CHECK_THAT(read_file(folder / "out/cdem.log"), Contains("checkpoint; to go on: cdem resume out"));
+    REQUIRE(fs::exists(folder / "out/checkpoint_1.cdem"));
+    Start start;
+    start.folder = folder.path();
+    start.signal = SIGINT;
+    start.signal_after = "goes on";
+    const Outcome again = run_cdem({"resume", "out"}, start);
+    CHECK(again.exit_code == 130);
+    CHECK(again.after_signal < in_time);
+    CHECK_THAT(again.out, Contains("goes on from out/checkpoint_1.cdem, stage 1"));
+  }
 }
 
 TEST_CASE("a limit of memory ends in one line") {

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <string>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 namespace cdem::script::test {
@@ -22,7 +23,9 @@ class Listener : public Observer {
 public:
   void message(const std::string& line) override { lines.push_back(line); }
   bool stop_requested() override { return stop && stop(); }
+  Activity doing(Activity now) override { return std::exchange(activity, now); }
 
+  Activity activity = Activity::script;
   std::vector<std::string> lines;
   std::function<bool()> stop;
 };

@@ -30,7 +30,10 @@ struct Mended : Script {
   // What the stages of the next run cost: looks whether the user wants to stop, every 16 steps.
   int looks() {
     int count = 0;
-    listener->stop = [&] { return ++count < 0; };
+    listener->stop = [&] {
+      count += listener->activity == cdem::Activity::stage ? 1 : 0; // not behind calls
+      return false;
+    };
     listener->lines.clear();
     run();
     listener->stop = nullptr;

@@ -75,14 +75,14 @@ fs::path Files::to_write(const std::string& name) const {
 
 fs::path Files::allowed(const std::string& name) const {
   fs::path path = would_write(name);
+  if (will_write)
+    will_write(path); // first, as it clears the folder of old results
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
   if (error)
     throw FileError(path.parent_path().string() + ": the folder cannot be made: " + error.message());
   if (fs::is_directory(path, error))
     throw FileError(path.string() + ": is a folder, not a file");
-  if (will_write)
-    will_write(path);
   return path;
 }
 

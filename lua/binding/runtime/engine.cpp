@@ -76,6 +76,9 @@ void Engine::run_file() {
     session.checkpoints.fail();
     session.write_films();
     throw;
+  } catch (const Interrupted&) {
+    session.write_films();
+    throw;
   }
   session.write_films();
   in_script([&] { session.check_set_names(); });
@@ -223,7 +226,7 @@ std::string Engine::model_summary() const {
 
 std::string Engine::leave_stuck_script() {
   LuaState& lua = impl_->lua;
-  impl_->session.checkpoints.stop();
+  impl_->session.checkpoints.stop_in_call();
   const Bound* const running = lua.running;
   const unsigned looks = lua.looks;
   std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -276,7 +276,20 @@ void Checkpoints::keep_solved() {
 
 void Checkpoints::stop() {
   write(true);
-  stopped_ = true; // half a call has perhaps been done: no later try
+}
+
+void Checkpoints::stop_in_call() {
+  if (ranks().alone())
+    flags_.in_call = false;
+  write(true);
+}
+
+void Checkpoints::stop_if_wanted() {
+  const auto& observer = session_.settings.observer;
+  if (!observer || !observer->stop_requested())
+    return;
+  stop();
+  throw Interrupted();
 }
 
 void Checkpoints::end() {

@@ -3,6 +3,7 @@
 
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/stop.hpp"
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/session/session.hpp"
@@ -123,7 +124,29 @@ Value Checkpoints::call(const std::string& name, Replay replay, int model,
     throw geom::InputError(refused_);
   if (!keeps_ || flags_.paused || replay == Replay::never)
     return body();
+  Value result;
+  try {
+    result = recorded(name, replay, model, hash, body);
+  } catch (const Interrupted&) { // by a function of the script that the call was given
+    stop();
+    throw;
+  } catch (const geom::Stopped&) {
+    stop();
+    throw;
+  }
+  if (asked_) {
+    asked_ = false;
+    write(false);
+  }
+  if (!with_others() && !replaying_) // several ranks, for which it takes a message, look when a stage begins
+    stop_if_wanted();
+  return result;
+}
+
+Value Checkpoints::recorded(const std::string& name, Replay replay, int model,
+                            const std::function<std::uint64_t()>& hash, const std::function<Value()>& body) {
   const With inside(*this, {true, true, flags_.in_stage});
+  const Doing completes(session_.settings.observer.get(), Activity::saving);
   Event event;
   event.name = name;
   if (journal_.replaying()) {
@@ -159,11 +182,6 @@ Value Checkpoints::call(const std::string& name, Replay replay, int model,
     told_full_ = true;
     session_.warn("from now on there are no checkpoints: the script has read too much from its models to "
                   "keep it all; read less in callbacks");
-  }
-  if (asked_) {
-    asked_ = false;
-    flags_.in_call = false;
-    write(false);
   }
   return result;
 }
@@ -204,12 +222,18 @@ Value Checkpoints::solve_recorded(const std::string& kind, const std::function<V
   const With inside(*this, {false, true, true});
   mark_ = journal_.size();
   begin_steps_ = mark_steps_ = steps();
+  stop_if_wanted(); // stages may be shorter than the steps between looks
   if (wanted())
     write(false);
   Event end;
   end.kind = Event::Kind::stage_end;
   end.name = kind;
-  return noted(end, solve, [&](const Event& done) { record_end(done); });
+  try {
+    return noted(end, solve, [&](const Event& done) { record_end(done); });
+  } catch (const Interrupted&) {
+    stopped_ = true; // the model is no longer where the stage can be left
+    throw;
+  }
 }
 
 Value Checkpoints::stage(const std::string& kind, std::uint64_t hash, const Callbacks& callbacks,

@@ -59,7 +59,9 @@ public:
   }
   bool wanted() override;
   void write(bool stopping) override;
-  void stop(); // the user wants to stop and Lua is running: writes one where that is possible
+  // The user wants to stop and Lua is running: writes one, where a call is running once it has been left.
+  void stop();
+  void stop_in_call(); // from another thread: the script hangs in Lua, where no call has changed anything yet
   // The script has ended with an error: writes one from which it goes on when it has been mended, if something was
   // solved. It is of the end of the last stage, or where the stage can be left in which a callback has failed.
   void fail();
@@ -88,6 +90,9 @@ private:
   void keep_solved();                   // what fail() writes
   [[noreturn]] void went_another_way(const std::string& now, const Event& then);
   [[noreturn]] void refuse(const std::string& text);
+  Value recorded(const std::string& name, Replay, int model, const std::function<std::uint64_t()>& hash,
+                 const std::function<Value()>& body);
+  void stop_if_wanted(); // Interrupted
   Value solve_recorded(const std::string& kind, const std::function<Value()>& solve);
   std::filesystem::path path_of(std::uint64_t serial) const;
 
