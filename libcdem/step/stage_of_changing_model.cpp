@@ -113,7 +113,7 @@ void Stage::change_nodes(Freed freed) {
   }
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact, false);
-  if (!scale_masses)
+  if (in_real_time && !scale_masses)
     carry_water(work.resolved.water_mass);
   update_external(work.resolved, state.time, moving());
   if (std::find(freed.anew.begin(), freed.anew.end(), 1) == freed.anew.end())
