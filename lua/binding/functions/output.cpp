@@ -201,9 +201,9 @@ void add_lines(const std::vector<Polyline>& lines, PictureOptions& options) {
 
 void add_marks(const Snapshot& shown, const Arguments& a, PictureOptions& options) {
   if (a.flag("arrows"))
-    add_lines(displacement_arrows(shown, options.deformation), options);
+    add_lines(displacement_arrows(shown, options), options);
   if (a.flag("crosses"))
-    add_lines(stress_crosses(shown, options.deformation), options);
+    add_lines(stress_crosses(shown, options), options);
 }
 
 Snapshot section_with_water(const Snapshot& all, const CutPlane& plane, PictureOptions& options) {
