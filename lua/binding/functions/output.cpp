@@ -292,10 +292,10 @@ Value model_picture(Session& session, ModelObject& model, const Arguments& a) {
 }
 
 std::vector<Field> model_picture_fields() {
-  std::vector<Field> fields =
-      view_fields("field to colour by, e.g. \"displacement.x\", \"stress.yy\", \"von_mises\", \"block_id\"; "
-                  "plain blocks when left out",
-                  "z where gravity acts along z, else y");
+  std::vector<Field> fields = view_fields("field to colour by, e.g. \"displacement.x\", \"stress.yy\", "
+                                          "\"von_mises\", \"block_id\", \"fragment\"; "
+                                          "plain blocks when left out",
+                                          "z where gravity acts along z, else y");
   std::vector<Field> own = model_view.fields();
   fields.insert(fields.begin() + 2, own.front()); // how it is deformed
   own.erase(own.begin());
