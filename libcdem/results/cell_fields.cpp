@@ -6,6 +6,7 @@
 #include "libcdem/results/bond_damage.hpp"
 #include "libcdem/results/empty_field.hpp"
 #include "libcdem/results/fields.hpp"
+#include "libcdem/results/fragments.hpp"
 #include "libcdem/results/joints.hpp"
 
 #include <algorithm>
@@ -157,6 +158,14 @@ void add_joints(const Model& model, const State& state, CellFields& of) {
           [&](Values& values, int tet) { values.push_back(joints[model.tet_block[tet]][1]); });
 }
 
+void add_fragments(const Model& model, const State& state, CellFields& of) {
+  const auto from = FieldSource::around;
+  const std::vector<int> ranks =
+      of.wants("fragment", from) ? fragment_ranks(model, state) : std::vector<int>();
+  of.fill(empty_field("fragment", "", 1, true), from,
+          [&](Values& values, int tet) { values.push_back(ranks[model.tets[tet][0]]); });
+}
+
 } // namespace
 
 std::vector<SnapshotField> cell_fields(const Model& model, const State& state, const std::vector<int>& tets,
@@ -166,6 +175,7 @@ std::vector<SnapshotField> cell_fields(const Model& model, const State& state, c
   add_numbers(model, of);
   add_damage(model, state, of);
   add_joints(model, state, of);
+  add_fragments(model, state, of);
   return std::move(of.fields);
 }
 

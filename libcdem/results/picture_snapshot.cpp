@@ -210,7 +210,7 @@ private:
 
 bool needs_whole(const PictureWish& wish) {
   const std::string base = base_of(wish.field);
-  return base == "damage" || base == "joint_slip" || base == "joint_utilisation";
+  return base == "damage" || base == "joint_slip" || base == "joint_utilisation" || base == "fragment";
 }
 
 Snapshot make_picture_snapshot(const Model& model, const State& state, const PictureWish& wish,

@@ -1,12 +1,14 @@
 #include "libcdem/vtk/block_marks.hpp"
 
 #include "libcdem/vtk/field_values.hpp"
+#include "libcdem/vtk/view.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
 
 namespace cdem {
@@ -23,6 +25,7 @@ struct ShownBlock {
   double area = 0;
   Vec3 place = Vec3::Zero(), displacement = Vec3::Zero(); // m
   geom::Mat3 stress = geom::Mat3::Zero();                 // Pa
+  geom::Box box;                                          // m
 };
 
 struct ShownBlocks {
@@ -37,23 +40,34 @@ geom::Mat3 tensor(const std::vector<double>& values, std::size_t cell) {
   return m;
 }
 
-ShownBlocks shown_blocks(const Snapshot& s, double deformation) {
+// In the part of the page that `fit` shows.
+std::function<bool(const Vec3&)> is_shown(const Snapshot& s, const PictureOptions& options) {
+  if (!options.fit)
+    return [](const Vec3&) { return true; };
+  const View view = view_of(options, s.points, s.surface);
+  return [view, shown = view.extent(*options.fit)](const Vec3& place) {
+    const Vec3 x = view.in_view(place);
+    return (x.head<2>().array() >= shown.min.head<2>().array()).all() &&
+           (x.head<2>().array() <= shown.max.head<2>().array()).all();
+  };
+}
+
+ShownBlocks shown_blocks(const Snapshot& s, const PictureOptions& options) {
   const SnapshotField *displacement = displacement_of(s.point_fields),
                       *stress = find_field(s.cell_fields, "stress"),
                       *id = find_field(s.cell_fields, "block_id");
   if (!displacement || !id)
     throw geom::InputError("arrows and crosses: only for the blocks of a model; leave joints out");
   std::map<double, ShownBlock> of;
-  double whole = 0;
-  geom::Box box;
   for (std::size_t t = 0; t < s.surface.size(); ++t) {
     const auto cell = static_cast<std::size_t>(s.surface_tet[t]);
     Vec3 place = Vec3::Zero(), moved = Vec3::Zero();
     std::array<Vec3, 3> x;
+    geom::Box box;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto point = static_cast<std::size_t>(s.surface[t][k]);
       const Vec3 u = Eigen::Map<const Vec3>(displacement->values.data() + 3 * point);
-      x[k] = s.points[point] + deformation * u;
+      x[k] = s.points[point] + options.deformation * u;
       box.extend(x[k]);
       place += x[k] / 3;
       moved += u / 3;
@@ -61,19 +75,35 @@ ShownBlocks shown_blocks(const Snapshot& s, double deformation) {
     const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
     ShownBlock& block = of[id->values[cell]];
     block.area += area;
+    block.box.extend(box.min);
+    block.box.extend(box.max);
     block.place += area * place;
     block.displacement += area * moved;
     if (stress)
       block.stress += area * tensor(stress->values, cell);
-    whole += area;
+  }
+  const auto in_picture = is_shown(s, options);
+  double whole = 0;
+  geom::Box box;
+  for (auto block = of.begin(); block != of.end();) {
+    if (!(block->second.area > 0) || !in_picture(block->second.place / block->second.area)) {
+      block = of.erase(block);
+      continue;
+    }
+    whole += block->second.area;
+    box.extend(block->second.box.min);
+    box.extend(block->second.box.max);
+    ++block;
   }
   ShownBlocks shown;
+  if (of.empty())
+    return shown;
   const double wide = std::sqrt(whole / (6 * static_cast<double>(of.size())));
   shown.longest = std::min(most_of_body * box.size().norm(), 2 * wide);
   const std::size_t stride = (of.size() + most_marks - 1) / most_marks;
   std::size_t number = 0;
   for (auto& [key, block] : of) {
-    if (number++ % stride != 0 || !(block.area > 0))
+    if (number++ % stride != 0)
       continue;
     block.place /= block.area;
     block.displacement /= block.area;
@@ -99,8 +129,8 @@ Polyline line(const std::vector<Vec3>& points, const Colour& colour, double widt
 
 } // namespace
 
-std::vector<Polyline> displacement_arrows(const Snapshot& s, double deformation) {
-  const ShownBlocks shown = shown_blocks(s, deformation);
+std::vector<Polyline> displacement_arrows(const Snapshot& s, const PictureOptions& options) {
+  const ShownBlocks shown = shown_blocks(s, options);
   double most = 0;
   for (const ShownBlock& block : shown.blocks)
     most = std::max(most, block.displacement.norm());
@@ -122,8 +152,8 @@ std::vector<Polyline> displacement_arrows(const Snapshot& s, double deformation)
   return lines;
 }
 
-std::vector<Polyline> stress_crosses(const Snapshot& s, double deformation) {
-  const ShownBlocks shown = shown_blocks(s, deformation);
+std::vector<Polyline> stress_crosses(const Snapshot& s, const PictureOptions& options) {
+  const ShownBlocks shown = shown_blocks(s, options);
   std::vector<Eigen::SelfAdjointEigenSolver<geom::Mat3>> principal;
   double pressure = 0, tension = 0;
   for (const ShownBlock& block : shown.blocks) {

@@ -304,6 +304,38 @@ void draw_axes(Canvas& canvas, const AxesContent& axes, const Layout& layout, do
   }
 }
 
+namespace {
+
+// The pieces of a line that lie in the rectangle (Liang and Barsky 1984).
+std::vector<std::vector<Canvas::Point>> clipped(const std::vector<Canvas::Point>& line, const Rect& r) {
+  const Canvas::Point low{r.left, r.bottom}, high{r.right(), r.top()};
+  std::vector<std::vector<Canvas::Point>> pieces;
+  bool goes_on = false;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Canvas::Point &a = line[i - 1], d{line[i][0] - a[0], line[i][1] - a[1]};
+    double from = 0, to = 1;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double one = (low[k] - a[k]) / d[k], other = (high[k] - a[k]) / d[k];
+      if (d[k] != 0) {
+        from = std::max(from, std::min(one, other));
+        to = std::min(to, std::max(one, other));
+      } else if (a[k] < low[k] || a[k] > high[k]) {
+        to = -1;
+      }
+    }
+    if (from < to) {
+      const auto at = [&](double t) { return Canvas::Point{a[0] + t * d[0], a[1] + t * d[1]}; };
+      if (!goes_on || from > 0)
+        pieces.push_back({at(from)});
+      pieces.back().push_back(at(to));
+    }
+    goes_on = from < to && to == 1;
+  }
+  return pieces;
+}
+
+} // namespace
+
 void draw_overlays(Canvas& canvas, const std::vector<Marker>& markers, const std::vector<Polyline>& polylines,
                    const View& view, const Layout& layout, double pixel) {
   constexpr Colour white = {1, 1, 1};
@@ -312,9 +344,11 @@ void draw_overlays(Canvas& canvas, const std::vector<Marker>& markers, const std
     for (const geom::Vec3& x : line.points)
       if (view.in_front(x))
         points.push_back(view.pixel(x));
-    if (!line.dashed) // the gaps of a dashed line show what lies below
-      canvas.polyline(points, (line.width + 3) * pixel, white);
-    canvas.polyline(points, line.width * pixel, line.colour, line.dashed);
+    for (const auto& piece : clipped(points, layout.body)) {
+      if (!line.dashed) // the gaps of a dashed line show what lies below
+        canvas.polyline(piece, (line.width + 3) * pixel, white);
+      canvas.polyline(piece, line.width * pixel, line.colour, line.dashed);
+    }
   }
   const double font = label_font * pixel;
   for (const Marker& marker : markers) {

@@ -165,7 +165,8 @@ FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
   result.unit = field->unit;
   result.integer = field->integer;
   result.names = field->names;
-  result.id = field->integer && (ends_with(base, "_id") || base == "body" || base == "unit");
+  result.id =
+      field->integer && (ends_with(base, "_id") || base == "body" || base == "unit" || base == "fragment");
 
   if (field->values.empty() && !snapshot.surface.empty())
     throw std::logic_error("the field " + base + " is named in this result, but has no values");
@@ -175,7 +176,7 @@ FieldValues field_values(const Snapshot& snapshot, const std::string& name) {
     const double* v = field->values.data() + row * n;
     if (mises)
       return von_mises(v);
-    if (base == "unit" && v[0] == 0) // the only block of its body, such as the ground: no colour
+    if ((base == "unit" || base == "fragment") && v[0] == 0) // all of its body, such as the ground: no colour
       return std::nan("");
     return component == "magnitude" ? std::hypot(v[0], v[1], v[2]) : v[chosen];
   };

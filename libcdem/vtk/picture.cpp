@@ -44,15 +44,9 @@ void check_options(const PictureOptions& options) {
 // Extent in view axes of the drawn bodies, or of the box to be shown if one is given.
 geom::Box extent_of(const View& view, const PictureOptions& options, const std::vector<geom::Vec3>& points,
                     const BrokenInterfaces& broken, const std::vector<WaterSheet>& water) {
-  geom::Box extent;
-  if (const auto& fit = options.fit) {
-    for (const double x : {fit->min.x(), fit->max.x()})
-      for (const double y : {fit->min.y(), fit->max.y()})
-        for (const double z : {fit->min.z(), fit->max.z()})
-          extent.extend(view.in_view({x, y, z}));
-    return extent;
-  }
-  extent = view.extent(points);
+  if (options.fit)
+    return view.extent(*options.fit);
+  geom::Box extent = view.extent(points);
   for (const auto* part : {&broken.tension, &broken.shear})
     for (const geom::Triangle& t : part->triangles)
       for (const int v : t)
@@ -142,9 +136,7 @@ void draw(const Snapshot& snapshot, const PictureOptions& options, const Finish&
     scale = colour_scale(field->values, field->id, options.colour_map, options.range);
   }
 
-  View view = options.camera          ? View::from(*options.camera)
-              : options.view == "iso" ? View::iso(options.up, snapshot.points, snapshot.surface)
-                                      : View::named(options.view, options.up);
+  View view = view_of(options, snapshot.points, snapshot.surface);
   const std::vector<WaterSheet> water = shown_water(snapshot, points, options);
   const std::vector<Segment> line = water_lines(water, points, snapshot.surface);
   const std::vector<Polyline> arrows = water_arrows(water);

@@ -150,6 +150,22 @@ geom::Box View::extent(const std::vector<Vec3>& points) const {
   return box;
 }
 
+geom::Box View::extent(const geom::Box& all) const {
+  geom::Box box;
+  for (const double x : {all.min.x(), all.max.x()})
+    for (const double y : {all.min.y(), all.max.y()})
+      for (const double z : {all.min.z(), all.max.z()})
+        box.extend(in_view({x, y, z}));
+  return box;
+}
+
+View view_of(const PictureOptions& options, const std::vector<Vec3>& points,
+             const std::vector<geom::Triangle>& surface) {
+  return options.camera          ? View::from(*options.camera)
+         : options.view == "iso" ? View::iso(options.up, points, surface)
+                                 : View::named(options.view, options.up);
+}
+
 void View::fit(const geom::Box& extent_in_view, const Rect& target, double inset) {
   frame = target;
   const Vec3 size = extent_in_view.size(), middle = extent_in_view.centre();

@@ -30,9 +30,10 @@ public:
   void place(const Rect& frame);
 
   geom::Vec3 in_view(const geom::Vec3& x) const { return {right.dot(x), up.dot(x), toward.dot(x)}; }
-  geom::Box
-  extent(const std::vector<geom::Vec3>& points) const; // in view axes: right, up, toward the viewer, m
-  double pixel_size(const geom::Vec3& x) const;        // m a pixel covers at the depth of x
+  // In view axes: right, up, toward the viewer, m.
+  geom::Box extent(const std::vector<geom::Vec3>& points) const;
+  geom::Box extent(const geom::Box&) const;
+  double pixel_size(const geom::Vec3& x) const; // m a pixel covers at the depth of x
   std::array<double, 2> pixel(const geom::Vec3& x) const;
   bool in_front(const geom::Vec3& x) const; // of the camera
   geom::Vec3 direction_to_viewer(const geom::Vec3& x) const;
@@ -45,5 +46,9 @@ public:
   double metres_per_pixel = 1; // at the focal point
   Rect frame;
 };
+
+// Of a picture of these points; not yet placed in it.
+View view_of(const PictureOptions&, const std::vector<geom::Vec3>& points,
+             const std::vector<geom::Triangle>& surface);
 
 } // namespace cdem

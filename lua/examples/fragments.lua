@@ -11,7 +11,13 @@ model:gravity{ vector = {0, 0, -9.81} }
 model:settle{ kinetic_energy_ratio = 1e-2, max_time = 5 }
 
 -- example: model:fragments
-for _, fragment in ipairs(model:fragments()) do print(fragment.mass, fragment.velocity[3]) end
+local largest_free
+for _, fragment in ipairs(model:fragments()) do
+  if not fragment.held then
+    print(fragment.mass, fragment.velocity[3])
+    largest_free = largest_free or fragment
+  end
+end
 
 -- example: model:save_fragments
 model:save_fragments{ file = "fragments.csv" }

@@ -2,6 +2,7 @@
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/results/fragment_motions.hpp"
+#include "libcdem/results/fragments.hpp"
 #include "tests/libcdem/boxes.hpp"
 
 #include <catch2/catch.hpp>
@@ -106,6 +107,29 @@ TEST_CASE("fragments: those of a body that shatters share its mass, momenta and 
       n += pieces[i] == static_cast<int>(i);
     return n;
   }());
+}
+
+TEST_CASE("fragments: those of broken bodies are ranked by volume, a body in one piece is left out",
+          "[fragments]") {
+  const geom::Mat3 unturned = geom::Mat3::Identity();
+  geom::TetMesh stones = box_at({0.1, 0.1, 0.1}, {1, 1, 1}, unturned, {0, 0, 0});
+  const geom::TetMesh larger = box_at({0.2, 0.2, 0.2}, {1, 1, 1}, unturned, {1, 0, 0});
+  const int first = static_cast<int>(stones.nodes.size());
+  stones.nodes.insert(stones.nodes.end(), larger.nodes.begin(), larger.nodes.end());
+  for (geom::Tet tet : larger.tets) {
+    for (int& node : tet)
+      node += first;
+    stones.tets.push_back(tet);
+  }
+  stones.region.assign(stones.tets.size(), 0);
+  System s(
+      build({meshed("floor", box_at({2, 2, 1}, {2, 2, 1}, unturned, {0, 0, -5})), meshed("stones", stones)}));
+  const std::vector<int> rank = cdem::fragment_ranks(s.model, s.state);
+  REQUIRE(rank.size() == s.model.node_position.size());
+  for (std::size_t node = 0; node < rank.size(); ++node) {
+    const Vec3& x = s.model.node_position[node];
+    CHECK(rank[node] == (x.z() < -1 ? 0 : x.x() > 0.5 ? 1 : 2));
+  }
 }
 
 TEST_CASE("fragments: rigid bodies count with their own mass and inertia", "[fragments][rigid]") {

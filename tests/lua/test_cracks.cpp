@@ -68,6 +68,7 @@ TEST_CASE("cracks: the surface and the fragments as files and charts", "[lua][cr
                 "model:save_cracks{ file = 'cracks.vtp', series = 'all.pvd' }\n"
                 "model:save_cracks{ file = 'more.vtp', damaged = true, series = 'all.pvd' }\n"
                 "model:save_fragments{ file = 'fragments.csv' }\n"
+                "model:picture{ file = 'ranks.png', colour = 'fragment', size = {200, 200} }\n"
                 "model:chart_fragments{ file = 'sizes.png', size = {320, 240} }\n"
                 "local list, t = model:fragments(), cdem.read_csv('fragments.csv')\n"
                 "assert(#list == 2 and #t.mass == 2)\n"
@@ -82,6 +83,7 @@ TEST_CASE("cracks: the surface and the fragments as files and charts", "[lua][cr
   CHECK(script.error() == "");
   CHECK_THAT(script.read("cracks.vtp"), Contains("PolyData") && Contains("opening") && Contains("time"));
   CHECK(script.read("all.pvd").find("more.vtp") != std::string::npos);
+  CHECK(script.read("ranks.png").rfind("\x89PNG", 0) == 0);
   CHECK(script.read("sizes.png").rfind("\x89PNG", 0) == 0);
   CHECK_THAT(error_of(pulled_apart() + "model:save_cracks{ file = 'cracks.stl' }"), Contains(".vtp"));
 }

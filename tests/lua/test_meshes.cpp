@@ -59,6 +59,15 @@ TEST_CASE("bonds between regions alone let a body part there alone", "[lua]") {
         "");
 }
 
+TEST_CASE("a box mesh stands where its origin is", "[lua]") {
+  CHECK(
+      error_of(opening +
+               "local box = cdem.box_mesh{ size = {1, 2, 3}, divisions = {1, 2, 3}, origin = {5, -1, 0.5} "
+               "}:box()\n"
+               "for i, low in ipairs{5, -1, 0.5} do close(box.min[i], low) close(box.max[i], low + i) end") ==
+      "");
+}
+
 TEST_CASE("a meshed body under its weight: reaction, stress and energy", "[lua]") {
   CHECK(error_of(head + "local model = model_of{}\nmodel:fix{ on = 'z-' }\n"
                         "model:gravity{ vector = {0, 0, -9.81} }\n"

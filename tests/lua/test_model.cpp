@@ -194,6 +194,15 @@ TEST_CASE("a body whose cuts would fall apart is not refined", "[lua]") {
              Contains("body \"one\" has no joint"));
 }
 
+TEST_CASE("a check names stages of one kind in a row in one line", "[lua]") {
+  Script script(column() +
+                "for _ = 1, 3 do model:run{ steps = 2 } end\nmodel:relax{}\nmodel:run{ steps = 2 }\n");
+  script.settings.check_only = true;
+  CHECK(script.error() == "");
+  CHECK_THAT(script.engine->model_summary(),
+             Contains("  stages 1-3: run\n  stage 4: relax\n  stage 5: run\n"));
+}
+
 TEST_CASE("a check builds the model and returns typed, empty results", "[lua]") {
   Script script(pulled +
                 "local r = model:relax{}\nassert(r.converged == false and r.steps == 0 and r.residual == 0)\n"

@@ -88,9 +88,22 @@ TEST_CASE("a chart over time marks its stages, unless they are one or many", "[l
   CHECK(drawn(run, "") != drawn(run, ", stages = true"));
   const std::string many = "for _ = 1, 9 do " + run + "end\n";
   CHECK(drawn(many, "") == drawn(many, ", stages = false"));
-  CHECK_THAT(
-      Script(column() + run + "model:chart{ file = 'c.png', y = {'residual'}, stages = true }").error(),
-      Contains("stages: are marked over time; give x = \"time\" too"));
+  // Over steps, which relaxations take too, where it is asked for.
+  const auto over_steps = [](const std::string& options) {
+    Script script(
+        column() +
+        "model:traction{ on = 'x+', stress = {1e5, 0, 0} }\nmodel:relax{}\nmodel:relax{ residual = 1e-6 }\n"
+        "model:chart{ file = 'c.png', y = {'residual'}, size = {320, 240}" +
+        options + " }");
+    script.run();
+    return script.read("c.png");
+  };
+  CHECK(over_steps("") == over_steps(", stages = false"));
+  CHECK(over_steps("") != over_steps(", stages = true"));
+  CHECK_THAT(Script(column() + run +
+                    "model:chart{ file = 'c.png', x = 'residual', y = {'kinetic_energy'}, stages = true }")
+                 .error(),
+             Contains("stages: are marked over time and steps; give x = \"time\""));
 }
 
 TEST_CASE("pictures and charts are written as PNG, SVG and PDF", "[lua]") {

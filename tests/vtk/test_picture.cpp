@@ -369,6 +369,30 @@ TEST_CASE("pictures fitted to one box show the same place at the same pixel, wha
   CHECK_THROWS_WITH(render(s, o, folder / "c.png"), Contains("fit.max"));
 }
 
+TEST_CASE("lines end at the frame of the body: margin, colour bar and legend stay free") {
+  const TemporaryFolder folder;
+  PictureOptions o = bare("");
+  o.fit = geom::Box{{-2, -2, -2}, {6, 6, 2}};
+  for (const geom::Vec3& way : {geom::Vec3(1, 0, 0), geom::Vec3(0, 1, 0), geom::Vec3(1, 1, 0)}) {
+    Polyline line;
+    line.points = {geom::Vec3(2, 2, 0) - 50 * way, geom::Vec3(2, 2, 0), geom::Vec3(2, 2, 0) + 50 * way};
+    line.colour = {1, 0, 0};
+    line.width = 10;
+    o.polylines = {line};
+    render(three_blocks(), o, folder / "a.png");
+    const Image image = read_png(folder / "a.png");
+    int seen = 0, at_edge = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        if (const auto c = image.at(x, y); c[0] > 200 && c[1] < 60 && c[2] < 60) {
+          ++seen;
+          at_edge += x < 5 || y < 5 || x >= image.width - 5 || y >= image.height - 5 ? 1 : 0;
+        }
+    CHECK(seen > 100);
+    CHECK(at_edge == 0);
+  }
+}
+
 TEST_CASE("edges that their own block hides leave no trace") {
   const TemporaryFolder folder;
   const Snapshot s = sample::blocks(sample::grid(1, 1, 1, 1), 1);

@@ -104,7 +104,7 @@ TEST_CASE("joints alone are their triangles, seen from both sides, with their ow
 
 TEST_CASE("arrows follow the displacement of each block, the longest is told", "[section]") {
   const Snapshot cut = section_of(stretched(), {{0, 0, 0.5}, {0, 0, 1}});
-  const std::vector<Polyline> lines = displacement_arrows(cut, 0);
+  const std::vector<Polyline> lines = displacement_arrows(cut, {});
   REQUIRE(lines.size() == 2 * 6);                   // a shaft and a head each
   CHECK(lines[0].label == "longest arrow 5.59 mm"); // sqrt(5) mm/m at x = 2.5
   double longest = 0;
@@ -117,9 +117,29 @@ TEST_CASE("arrows follow the displacement of each block, the longest is told", "
     CHECK(length(lines[i]) == Approx(longest * lines[i].points[0].x() / 2.5));
 }
 
+TEST_CASE("arrows and crosses are those of what `fit` shows, and so are the largest values that are told",
+          "[section]") {
+  Snapshot all = stretched();
+  SnapshotField& stress = all.cell_fields.back();
+  for (std::size_t t = 0; t < all.tets.size(); ++t)
+    stress.values[6 * t] *= all.points[static_cast<std::size_t>(all.tets[t][0])].x() < 1.5 ? 1 : 10;
+  PictureOptions options;
+  options.fit = geom::Box{{0, 0, 5}, {1, 2, 5}}; // the left column, from the front at any depth
+  const Snapshot cut = section_of(all, {{0, 0, 0.5}, {0, 0, 1}});
+  const std::vector<Polyline> arrows = displacement_arrows(cut, options),
+                              crosses = stress_crosses(cut, options);
+  REQUIRE(arrows.size() == 2 * 2);
+  CHECK(arrows[0].label == "longest arrow 1.12 mm"); // at x = 0.5
+  REQUIRE(crosses.size() == 2 * 2);
+  for (const Polyline& line : crosses)
+    CHECK(0.5 * (line.points[0] + line.points[1]).x() == Approx(0.5));
+  options.fit = geom::Box{{-5, 0, 0}, {-4, 1, 1}};
+  CHECK(stress_crosses(cut, options).empty());
+}
+
 TEST_CASE("crosses stand along the principal stresses, in proportion", "[section]") {
   const Snapshot cut = section_of(stretched(), {{0, 0, 0.5}, {0, 0, 1}});
-  const std::vector<Polyline> lines = stress_crosses(cut, 0);
+  const std::vector<Polyline> lines = stress_crosses(cut, {});
   REQUIRE(lines.size() == 2 * 6); // the third principal stress is 0
   std::set<std::string> labels;
   double along_x = 0, along_y = 0;

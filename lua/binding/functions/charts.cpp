@@ -84,20 +84,20 @@ const std::vector<double>& column(const std::vector<std::pair<std::string, std::
   throw InputError(key + " = \"" + name + "\": no such history" + which_there_are(name, names));
 }
 
-// Where the stages of a model began, over time.
-std::vector<ChartMark> marks_of_stages(const Session& session, const ModelObject& model) {
+// Where the stages of a model began, over time or steps.
+std::vector<ChartMark> marks_of_stages(const Session& session, const ModelObject& model,
+                                       const std::vector<double>& x) {
   std::vector<ChartMark> marks;
   auto stage = session.stages.begin();
-  int last = 0;
-  for (const auto& row : model.simulation.history()) {
-    if (row.stage == last)
+  const auto& rows = model.simulation.history();
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (row > 0 && rows[row].stage == rows[row - 1].stage)
       continue;
-    last = row.stage;
     stage =
         std::find_if(stage, session.stages.end(), [&](const Stage& s) { return s.model == model.number; });
     if (stage == session.stages.end())
       break;
-    marks.push_back({row.time, std::to_string(stage->number) + " " + stage->kind});
+    marks.push_back({x[row], std::to_string(stage->number) + " " + stage->kind});
     std::replace(marks.back().name.begin(), marks.back().name.end(), '_', ' ');
     ++stage;
   }
@@ -128,10 +128,10 @@ Value chart_of_histories(Session& session, ModelObject& model, const Arguments& 
   add("y", false);
   add("right", true);
   constexpr std::size_t readable = 8;
-  if (a.has("stages") && a.flag("stages") && x_name != "time")
-    throw InputError("stages: are marked over time; give x = \"time\" too");
+  if (a.has("stages") && a.flag("stages") && x_name != "time" && x_name != "step")
+    throw InputError("stages: are marked over time and steps; give x = \"time\" or x = \"step\" too");
   if (a.has("stages") ? a.flag("stages") : x_name == "time")
-    options.marks = marks_of_stages(session, model);
+    options.marks = marks_of_stages(session, model, x);
   if (!a.has("stages") && (options.marks.size() < 2 || options.marks.size() > readable))
     options.marks.clear();
   if (!session.settings.check_only)
@@ -202,8 +202,8 @@ void bind_charts(Module& m) {
        list("right", text_type(), 0).doc("histories read on the right"),
        text("x").standard("step").doc("history along the x axis"),
        flag("stages").doc(
-           "over time, a thin line with its name where each stage began; when left out where there are "
-           "two to eight of them")});
+           "over time or steps, a thin line with its name where each stage began; when left out over time "
+           "where there are two to eight of them")});
   m.the_class("Model").add("chart", "Line chart of histories.", histories, chart_of_histories).by_rank_0();
 
   std::vector<Field> fragments = chart_record.fields();

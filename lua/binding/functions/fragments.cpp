@@ -79,8 +79,12 @@ Value save_fragments(Session& session, ModelObject& model, const Arguments& a) {
 void bind_fragments(Module& m) {
   m.records.push_back(fragment_motion);
   Class& model = m.the_class("Model");
-  model.add("fragments", "Pieces that unbroken bonds hold together, with their size and motion.", {},
-            fragments, "cdem.FragmentMotion[]", "largest first");
+  model.add(
+      "fragments",
+      "Pieces that unbroken bonds hold together, with their size and motion. Held ones, such as a floor, "
+      "are listed too, with `held`, and a floor is often the first: the first that is not held is the "
+      "largest piece that is free.",
+      {}, fragments, "cdem.FragmentMotion[]", "largest first");
   model.add("save_fragments",
             "Writes a row for each fragment, the largest first: number of its body from 1 (0: parts of "
             "several), tets, held, volume, diameter, mass, centre, momentum, angular momentum, energies.",

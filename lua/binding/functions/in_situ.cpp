@@ -110,7 +110,7 @@ Value gravity_stress(Session& session, ModelObject& model, const Arguments& a) {
       session.warn("gravity_stress: not converged after " + std::to_string(result.steps) +
                    " steps, residual " + three_digits(result.residual) + " above " +
                    number_text(options.residual) +
-                   "; raise max_steps, or look whether something moves freely");
+                   "; raise max_steps, give a larger residual, or look whether something moves freely");
     simulation.reset_displacement();
     return Value(relax_record(result));
   });

@@ -201,9 +201,9 @@ void add_lines(const std::vector<Polyline>& lines, PictureOptions& options) {
 
 void add_marks(const Snapshot& shown, const Arguments& a, PictureOptions& options) {
   if (a.flag("arrows"))
-    add_lines(displacement_arrows(shown, options.deformation), options);
+    add_lines(displacement_arrows(shown, options), options);
   if (a.flag("crosses"))
-    add_lines(stress_crosses(shown, options.deformation), options);
+    add_lines(stress_crosses(shown, options), options);
 }
 
 Snapshot section_with_water(const Snapshot& all, const CutPlane& plane, PictureOptions& options) {
@@ -292,10 +292,10 @@ Value model_picture(Session& session, ModelObject& model, const Arguments& a) {
 }
 
 std::vector<Field> model_picture_fields() {
-  std::vector<Field> fields =
-      view_fields("field to colour by, e.g. \"displacement.x\", \"stress.yy\", \"von_mises\", \"block_id\"; "
-                  "plain blocks when left out",
-                  "z where gravity acts along z, else y");
+  std::vector<Field> fields = view_fields("field to colour by, e.g. \"displacement.x\", \"stress.yy\", "
+                                          "\"von_mises\", \"block_id\", \"fragment\"; "
+                                          "plain blocks when left out",
+                                          "z where gravity acts along z, else y");
   std::vector<Field> own = model_view.fields();
   fields.insert(fields.begin() + 2, own.front()); // how it is deformed
   own.erase(own.begin());

@@ -50,7 +50,8 @@ void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResu
                             three_digits(r.residual);
   if (r.verdict == Verdict::undecided)
     session.warn(found + " above " + number_text(options.residual) +
-                 ": not converged; raise max_steps, or look whether something moves freely");
+                 ": not converged; raise max_steps, give a larger residual, or look whether something moves "
+                 "freely");
   else if (r.verdict == Verdict::failing && options.note.empty())
     session.warn(found + ": it runs away, " + moving_text(r) +
                  "; the script goes on, and result.verdict is \"failing\"");

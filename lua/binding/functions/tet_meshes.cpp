@@ -53,6 +53,8 @@ Value box_mesh(Session&, Object*, const Arguments& a) {
   auto object =
       std::make_shared<TetMeshObject>(geom::box_mesh(a.vec3("size"), a.ivec3("divisions"), a.number("jitter"),
                                                      static_cast<std::uint64_t>(a.integer("seed"))));
+  for (geom::Vec3& x : object->mesh.nodes)
+    x += a.vec3("origin");
   object->title = "box";
   return object;
 }
@@ -183,9 +185,10 @@ void bind_tet_meshes(Module& m) {
              .standard(Value(geom::Vec3(0, 0, 0)))
              .doc("is added to the coordinates: a survey far from the origin loses its digits")},
         read_tet_mesh, "cdem.TetMesh");
-  m.add("box_mesh", "A box of nx ny nz cells with six tetrahedra each; lower corner at the origin.",
+  m.add("box_mesh", "A box of nx ny nz cells with six tetrahedra each.",
         {vec3("size", "m").above(0).required(),
          ivec3("divisions").at_least(1).required().doc("cells along x, y and z"),
+         vec3("origin", "m").standard(Value(geom::Vec3(0, 0, 0))).doc("lower corner"),
          number("jitter")
              .within(0, geom::max_box_jitter)
              .standard(0.0)

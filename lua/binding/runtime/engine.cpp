@@ -203,6 +203,29 @@ std::vector<ParameterInfo> Engine::parameters() const {
   return all;
 }
 
+namespace {
+
+// Stages of one kind that follow each other share a line.
+std::string stage_lines(const std::vector<Stage>& stages, int model) {
+  std::string out;
+  for (std::size_t first = 0, last = 0; first < stages.size(); first = last) {
+    const auto joins = [&](const Stage& s) {
+      return s.model == stages[first].model && s.kind == stages[first].kind;
+    };
+    for (last = first; last < stages.size() && joins(stages[last]);)
+      ++last;
+    if (stages[first].model != model)
+      continue;
+    const std::string number = std::to_string(stages[first].number);
+    out += (last - first == 1 ? "  stage " + number
+                              : "  stages " + number + "-" + std::to_string(stages[last - 1].number)) +
+           ": " + stages[first].kind + "\n";
+  }
+  return out;
+}
+
+} // namespace
+
 std::string Engine::model_summary() const {
   const Session& session = impl_->session;
   std::string out;
@@ -217,9 +240,7 @@ std::string Engine::model_summary() const {
       out += "  " + line + "\n";
     for (const std::string& line : session.notes[i]->conditions)
       out += "  " + line + "\n";
-    for (const Stage& stage : session.stages)
-      if (stage.model == number)
-        out += "  stage " + std::to_string(stage.number) + ": " + stage.kind + "\n";
+    out += stage_lines(session.stages, number);
   }
   return out;
 }
