@@ -240,6 +240,7 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
                freed = (options.breaking && stage.split_nodes(stepping.time_step)) || renewed;
     const bool joined = options.breaking && stage.join_nodes();
     if (freed || joined) {
+      const double before = stepping.time_step;
       viscous = viscous_forces(context.model);
       stable_now = context.model.frames.empty() ? 0 : stable_of_all();
       stable_of_mesh = stable_time_step(context.model, stage.work.resolved.bolts);
@@ -247,6 +248,10 @@ RunResult run(const StageContext& context, const RunOptions& options, const std:
         take_step(choose_time_step(context, options));
       if (!scaled.on())
         shorten(options.safety * stable_of_mesh);
+      if (stepping.time_step < 0.5 * before)
+        context.observer.message(
+            fmt::format("the time step fell from {:.3g} to {:.3g} s: faces that crack are stiff", before,
+                        stepping.time_step));
     }
     // Before the restart point, which is where a stage that goes on begins.
     if (chooses_step && (freed || joined || stage.begins() || stage.is_due(watch_every)) &&
