@@ -194,6 +194,7 @@ public:
 
   void begin_step(bool changed, bool joined) override {
     if (changed) {
+      const double before = stepping_.time_step;
       viscous_ = viscous_forces(model_);
       stable_now_ = model_.frames.empty() ? 0 : stable_of_all();
       stable_of_mesh_ = stable_of_mesh();
@@ -201,6 +202,10 @@ public:
         take_step(choose_time_step(context_, options_));
       if (!scaled_.on())
         shorten(options_.safety * stable_of_mesh_);
+      if (stepping_.time_step < 0.5 * before)
+        context_.observer.message(
+            fmt::format("the time step fell from {:.3g} to {:.3g} s: faces that crack are stiff", before,
+                        stepping_.time_step));
     }
     if (chooses_step_ && (changed || stage_.begins() || stage_.is_due(watch_every)) &&
         any_dry_joint(model_, state_))

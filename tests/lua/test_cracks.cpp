@@ -88,6 +88,25 @@ TEST_CASE("cracks: the surface and the fragments as files and charts", "[lua][cr
   CHECK_THAT(error_of(pulled_apart() + "model:save_cracks{ file = 'cracks.stl' }"), Contains(".vtp"));
 }
 
+TEST_CASE("cracks: the log says once that the first of them shortens the time step", "[lua][cracks]") {
+  Script script(opening + R"(
+local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2400 }
+local law = cdem.mohr_coulomb{ cohesion = 6e6, friction_angle = 30, tensile_strength = 3e6, softening = "exponential",
+                               fracture_energy_1 = 100, fracture_energy_2 = 1000 }
+local bar = cdem.box_mesh{ size = {0.2, 0.05, 0.05}, divisions = {8, 2, 2}, jitter = 0.1 }
+local model = cdem.model{ bodies = { { name = "bar", shape = bar, material = rock, joint = law } } }
+model:fix{ on = "x-" }
+model:fix{ on = "x+", axes = "x", velocity = {0.2, 0, 0} }
+local steps = {}
+for i = 1, 6 do steps[i] = model:run{ duration = 5e-5 }.time_step end
+assert(steps[6] < 0.5 * steps[1])
+)");
+  CHECK(script.error() == "");
+  const auto told = those_with(script.listener->lines, "the time step fell from ");
+  REQUIRE(told.size() == 1);
+  CHECK_THAT(told[0], Contains(" s: faces that crack are stiff"));
+}
+
 TEST_CASE("cracks: a J integral is refused where it makes no sense", "[lua][cracks]") {
   CHECK_THAT(error_of(pulled_apart() +
                       "model:j_integral{ point = {1, 1, 0}, front = {0, 0, 1}, growth = {0, 1, 0}, "
