@@ -4,7 +4,7 @@
 #include "libcdem/step/errors.hpp"
 #include "libgeom/core/random.hpp"
 #include "lua/binding/replay/journal.hpp"
-#include "tests/lua/script.hpp"
+#include "tests/lua/stopped_script.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -62,44 +62,17 @@ cdem.report{ { name = "hash", value = model.state_hash }, { name = "calls", valu
 print "ends"
 )";
 
-struct Case : Script {
-  explicit Case(const std::string& text) : Script(text) { write("helper.lua", "return { factor = 1 }"); }
-
-  // Stops at the given look; true when the script had ended before.
-  bool ends_before(int look) {
-    int looks = 0;
-    listener->stop = [&] { return ++looks >= look; };
-    try {
-      run();
-    } catch (const cdem::Interrupted&) {
-      listener->stop = nullptr;
-      return false;
-    }
-    listener->stop = nullptr;
-    return true;
-  }
-  // What it wrote, without the folder's own name.
-  std::string text(const std::string& name) const {
-    std::string all = read(name);
-    const std::string own = folder.filename().string();
-    for (auto at = all.find(own); at != std::string::npos; at = all.find(own))
-      all.erase(at, own.size());
-    return all;
-  }
-  void go_on_from_newest() { settings.resume = newest_checkpoint(settings.output).file; }
-};
-
 } // namespace
 
 TEST_CASE("resume: a script that was stopped anywhere ends with the same report, files and state",
           "[checkpoint]") {
-  Case whole(plate);
+  StoppedScript whole(plate);
   whole.run();
   const std::string report = whole.text("report.json");
   REQUIRE(report.find("resume") == std::string::npos);
   for (const int look : {12, 30, 56, 62, 90, 110}) {
     INFO("stopped at look " << look);
-    Case broken(plate);
+    StoppedScript broken(plate);
     REQUIRE_FALSE(broken.ends_before(look));
     broken.go_on_from_newest();
     broken.settings.threads = look % 2 == 0 ? 2 : 1;
@@ -118,7 +91,7 @@ TEST_CASE("resume: a script that was stopped anywhere ends with the same report,
 }
 
 TEST_CASE("resume: a script may be stopped again and again", "[checkpoint]") {
-  Case whole(plate), broken(plate);
+  StoppedScript whole(plate), broken(plate);
   whole.run();
   int rounds = 0;
   for (; !broken.ends_before(30); ++rounds) {
@@ -131,7 +104,7 @@ TEST_CASE("resume: a script may be stopped again and again", "[checkpoint]") {
 
 TEST_CASE("resume: checkpoints that are written all the time change nothing, and the newest is gone on from",
           "[checkpoint]") {
-  Case whole(plate), broken(plate);
+  StoppedScript whole(plate), broken(plate);
   whole.run();
   broken.settings.checkpoint_minutes = 1e-9;
   REQUIRE_FALSE(broken.ends_before(70));
@@ -145,74 +118,6 @@ TEST_CASE("resume: checkpoints that are written all the time change nothing, and
   broken.go_on_from_newest();
   broken.run();
   CHECK(broken.text("report.json") == whole.text("report.json"));
-}
-
-TEST_CASE("resume: whatever is stopped after something was solved goes on, in functions given to calls too",
-          "[checkpoint]") {
-  // Faces chosen by a function that takes long, which calls ask between stages, in callbacks and as stages begin;
-  // stages too short to be looked at on their way; a change of the model; a film.
-  const std::string text = R"(
-local cdem = require "cdem"
-local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
-local joint = cdem.mohr_coulomb{ cohesion = 6e5, friction_angle = 30, tensile_strength = 2e5 }
-local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 0.5}, divisions = {2, 2, 1} },
-  material = rock, joint = joint, name = "plate" } } }
-local function at(place)
-  return function(_, y)
-    for _ = 1, 300 do end
-    return math.abs(y - place) < 1e-6
-  end
-end
-model:select{ name = "top", on = at(1) }
-model:fix{ on = at(0) }
-model:traction{ on = "top", stress = {0, 1e5, 0} }
-model:film{ file = "plate.ogv", steps = 40, size = {64, 64}, fit = { min = {0, 0, 0}, max = {1, 1, 1} } }
-local seen = {}
-for i = 1, 3 do
-  model:run{ steps = 25, every = 10, callback = function() seen[#seen + 1] = model:reaction("top")[2] end }
-  seen[#seen + 1] = model:mean("displacement.y", "top")
-end
-for i = 1, 6 do model:run{ steps = 7 } end
-model:remove{ on = cdem.select.where(function(x) for _ = 1, 5000 do end return x > 0.5 end) }
-seen[#seen + 1] = model:counts().blocks
-model:gravity{ vector = {0, -1, 0} }
-model:relax{ max_steps = 40 }
-seen[#seen + 1] = model:mean("displacement.y", at(0))
-cdem.report{ { name = "hash", value = model.state_hash }, { name = "seen", value = table.concat(seen, " ") } }
-)";
-  Case whole(text);
-  int looks = 0;
-  whole.listener->stop = [&] { return ++looks < 0; };
-  whole.run();
-  const std::string report = whole.text("report.json"), history = whole.read("history.csv");
-  int kept = 0, lost_after = 0;
-  for (int look = 1; look <= looks; ++look) {
-    Case broken(text);
-    if (broken.ends_before(look))
-      continue;
-    INFO("stopped at look " << look << " of " << looks);
-    if (!broken.wrote("checkpoint_1.cdem")) {
-      lost_after = look;
-      CHECK(kept == 0); // none was solved yet
-      continue;
-    }
-    ++kept;
-    CHECK(broken.wrote("plate.ogv"));
-    broken.go_on_from_newest();
-    // Stopped again before its first step.
-    int again = 0;
-    broken.listener->stop = [&] { return ++again >= 1; };
-    CHECK_THROWS_AS(broken.run(), cdem::Interrupted);
-    broken.listener->stop = nullptr;
-    broken.go_on_from_newest();
-    broken.run();
-    CHECK(broken.text("report.json") == report);
-    CHECK(broken.read("history.csv") == history);
-    CHECK(broken.read("plate.ogv").size() ==
-          whole.read("plate.ogv").size()); // the file has a number of its own
-  }
-  CHECK(kept > looks / 2);
-  CHECK(lost_after < looks / 2);
 }
 
 TEST_CASE("resume: a growing crack that was stopped begins its stage again", "[checkpoint]") {
@@ -231,7 +136,7 @@ local grown = model:grow{ passes = 2, residual = 1e-3, max_steps = 2000, max_rou
 cdem.report{ { name = "hash", value = model.state_hash }, { name = "state", value = grown.state },
   { name = "passes", value = passes }, { name = "blocks", value = model:counts().blocks } }
 )";
-  Case whole(text), broken(text);
+  StoppedScript whole(text), broken(text);
   int looks = 0;
   whole.listener->stop = [&] { return ++looks < 0; };
   whole.run();
@@ -270,14 +175,14 @@ cdem.report{ { name = "hash", value = model.state_hash }, { name = "calls", valu
   { name = "lowest", value = lowest }, { name = "steps", value = settled.steps }, { name = "broken", value = found.steps },
   { name = "phases", value = #settled.phases }, { name = "velocity", value = found.velocity } }
 )";
-  Case whole(text);
+  StoppedScript whole(text);
   int looks = 0;
   whole.listener->stop = [&] { return ++looks < 0; };
   whole.run();
   CHECK_THAT(whole.text("report.json"), Contains("\"phases\""));
   for (const double part : {0.3, 0.6, 0.85, 0.97}) {
     INFO("stopped after " << part << " of the looks");
-    Case broken(text);
+    StoppedScript broken(text);
     REQUIRE_FALSE(broken.ends_before(static_cast<int>(part * looks)));
     broken.go_on_from_newest();
     broken.settings.threads = part < 0.5 ? 2 : 1;
@@ -302,7 +207,7 @@ model:run{ steps = 1500 }
 cdem.report{ { name = "hash", value = model.state_hash },
   { name = "held", value = model:max("displacement.magnitude", cdem.select.faces{ name = "root" }) } }
 )";
-  Case whole(text), broken(text);
+  StoppedScript whole(text), broken(text);
   whole.run();
   REQUIRE_FALSE(broken.ends_before(50));
   broken.go_on_from_newest();
@@ -311,10 +216,11 @@ cdem.report{ { name = "hash", value = model.state_hash },
 }
 
 TEST_CASE("resume: an asked checkpoint holds all up to its line", "[checkpoint]") {
-  Case script(column() + "print 'first'\nmodel:traction{ on = 'x+', stress = {1e6, 0, 0} }\n"
-                         "model:relax{}\nlocal t = cdem.elapsed()\nmodel:checkpoint()\nprint 'second'\n"
-                         "print(cdem.elapsed() >= t)\nif not io.open('go') then error 'fails' end\n"
-                         "print(model:max('displacement.x') > 0, 'third')");
+  StoppedScript script(column() +
+                       "print 'first'\nmodel:traction{ on = 'x+', stress = {1e6, 0, 0} }\n"
+                       "model:relax{}\nlocal t = cdem.elapsed()\nmodel:checkpoint()\nprint 'second'\n"
+                       "print(cdem.elapsed() >= t)\nif not io.open('go') then error 'fails' end\n"
+                       "print(model:max('displacement.x') > 0, 'third')");
   CHECK_THAT(script.error(), Contains("fails"));
   script.write("go", "");
   script.go_on_from_newest();
@@ -329,8 +235,8 @@ TEST_CASE("resume: an asked checkpoint holds all up to its line", "[checkpoint]"
 
 TEST_CASE("resume: a script, a file it requires or a model that has changed is refused in one line",
           "[checkpoint]") {
-  const auto refused = [](const std::function<void(Case&)>& change) {
-    Case script(plate);
+  const auto refused = [](const std::function<void(StoppedScript&)>& change) {
+    StoppedScript script(plate);
     REQUIRE_FALSE(script.ends_before(60));
     script.go_on_from_newest();
     change(script);
@@ -339,15 +245,15 @@ TEST_CASE("resume: a script, a file it requires or a model that has changed is r
     CHECK(script.wrote("checkpoint_1.cdem")); // still there
     return error;
   };
-  CHECK_THAT(refused([](Case& s) { s.write("case.lua", std::string(plate) + "\n"); }),
+  CHECK_THAT(refused([](StoppedScript& s) { s.write("case.lua", std::string(plate) + "\n"); }),
              Contains("has changed since its checkpoint"));
-  CHECK_THAT(refused([](Case& s) { s.write("helper.lua", "return { factor = 1.0 }"); }),
+  CHECK_THAT(refused([](StoppedScript& s) { s.write("helper.lua", "return { factor = 1.0 }"); }),
              Contains("require helper with other values"));
-  CHECK_THAT(refused([](Case& s) { s.set("a", "1"); }), Contains("other --set values"));
+  CHECK_THAT(refused([](StoppedScript& s) { s.set("a", "1"); }), Contains("other --set values"));
 }
 
 TEST_CASE("resume: without a checkpoint, or with two that are damaged, it says so", "[checkpoint]") {
-  Case script(plate);
+  StoppedScript script(plate);
   CHECK_THROWS_WITH(newest_checkpoint(script.settings.output), Contains("no checkpoint"));
   REQUIRE_FALSE(script.ends_before(60));
   fs::resize_file(script.settings.output / "checkpoint_1.cdem", 100);
