@@ -173,7 +173,6 @@ private:
 
   void find_pushes(const PushDirections& directions) {
     std::vector<std::size_t> deep;
-    pushes_.reset(new TetPairPush[n_batches_]); // as for batches_
     for (std::size_t batch = 0; batch < n_batches_; ++batch)
       for (auto& axis : pushes_[batch].normal)
         std::fill_n(axis, lanes, 0.0);
@@ -321,7 +320,7 @@ private:
   TetChunk out_;
   // Each pair presses twice at most. Not set to 0: that would cost as much as what is written.
   std::unique_ptr<TetPairPress[]> batches_{new TetPairPress[2 * pairs_per_chunk / lanes]};
-  std::unique_ptr<TetPairPush[]> pushes_;
+  std::unique_ptr<TetPairPush[]> pushes_{new TetPairPush[2 * pairs_per_chunk / lanes]};
   std::size_t n_batches_ = 0;
   std::vector<std::pair<int, int>> result_;      // batch and lane of the force; -1: none was asked for
   std::vector<double> phi0_, deepest_, allowed_; // m
