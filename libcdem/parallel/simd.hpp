@@ -95,8 +95,8 @@ CDEM_INLINE void store_wide(double* p, const V& v) {
 
 // Comparisons whose result is kept, combined or asked for are written with `below`, `at_most` and `equal`; one by which something is
 // chosen at once may be written as it is. GCC compares eight numbers one by one where it keeps the result: so that of eight is
-// made from the bits of their difference, which has the right sign unless one of the two is infinite or no number. Of one number
-// these are comparisons.
+// made from the bits of their difference, which has the right sign unless one of the two is infinite or no number. For
+// one number these are comparisons.
 CDEM_INLINE Mask bits_of_difference(const Oct& a, const Oct& b) {
   const Oct difference = a - b;
   Mask bits;

@@ -6,7 +6,7 @@
 // alone moves a node, since it knows all forces on it. This needs one message more than if every rank with a copy moved
 // the node, but half the rules.
 //
-// Of one process that is by itself the share is everything, and all that is told does nothing.
+// The share of a process that is by itself is everything, and its calls that tell others do nothing.
 #pragma once
 
 #include "libcdem/ranks/links.hpp"

@@ -9,7 +9,7 @@ namespace cdem {
 // Fragments as in bond/fragments.hpp, largest first; equal ones in the order of their first node.
 std::vector<Fragment> fragments(const Model&, const State&, const ResolvedConditions&);
 
-// Of each node: the rank of its fragment by volume, from 1, largest first. 0 where all bodies of the fragment are in one piece,
+// The rank by volume of each node's fragment, from 1, largest first. 0 where all bodies of the fragment are in one piece,
 // such as a floor on which others shatter.
 std::vector<int> fragment_ranks(const Model&, const State&);
 

@@ -1,4 +1,4 @@
-// What solving calls differ in: the clock, how nodes move, damping, and when it is enough. The step itself is one
+// Solving calls differ in the clock, how nodes move, damping, and when it is enough. The step itself is one
 // (step.cpp), whoever makes it.
 #pragma once
 

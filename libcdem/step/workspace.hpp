@@ -34,7 +34,7 @@ struct Workspace {
   std::vector<geom::Vec3>
       rigid_angle; // rad, per rigid body, by which it turns in the step; written by move_rigid
 
-  // What this rank computes and tells the others.
+  // The part of the model that this rank computes and tells the others.
   std::shared_ptr<SharedState> shared;
   const Partition& part() const { return shared->part(); }
 

@@ -1,6 +1,6 @@
 // How two tetrahedra that press each other act as one contact: a pure function, several pairs side by side.
 //
-// Of the forces f_i at the eight corners (tet_potential.hpp), those on the first tetrahedron sum up to F. The normal force is
+// The forces f_i stand at the eight corners (tet_potential.hpp); those on the first tetrahedron sum up to F. The normal force is
 // N = F . n along a direction n that is given. It presses at the mean of the corners of both, weighted by |f_i . n|; the shear force
 // acts there, at one place of both tetrahedra, so that the two keep momentum and angular momentum.
 #pragma once
