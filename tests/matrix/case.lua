@@ -197,7 +197,9 @@ for _ = 1, 3 + math.floor(random(0, 2.999)) do
     try(what, function() model:make_deformable{ on = on } end)
   elseif what == "remove" and with("remove", 1) then
     local gradual, share, time = with("gradual", 0.7), pick{ 0, 0.4, 1 }, pick{ 1e-3, 0.05 }
-    local place = pick{ on, cdem.select.where(function(x) return x > 0 and x < 900 end) }
+    -- With a stranger beside it, all of a single body may go; alone it may not.
+    local whole = count > 1 and on or cdem.select.where(function(x) return x < -1.2 end)
+    local place = pick{ whole, cdem.select.where(function(x) return x > 0 and x < 900 end) }
     try(what, function()
       model:remove{ on = place, relaxed = gradual and share or nil, over = gradual and share > 0 and time or nil }
     end)

@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/data/row_owner.hpp"
+#include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 
 #include <algorithm>
@@ -55,9 +56,11 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
   const auto blocks = static_cast<int>(model.blocks.size());
   std::vector<char> read(model.blocks.size(), 0);
   for (const std::vector<ContactRow>& rows : work.rows)
-    for (const ContactRow& row : rows)
-      for (const int mover : {row.source_mover, row.mover})
-        read[work.movers.block[mover]] = 1;
+    for (const ContactRow& row : rows) {
+      const auto mark = [&](int mover) { read[work.movers.block[mover]] = 1; };
+      mark(row.source_mover);
+      each_mover(work, row, mark);
+    }
   NodesRead nodes(model, work);
   std::vector<int> rigid;
   for (int b = 0; b < blocks; ++b) {
