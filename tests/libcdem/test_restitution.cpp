@@ -146,6 +146,34 @@ TEST_CASE("a deformable body at rest on a floor only loses energy, at any restit
   CHECK(s.impossible_energy(s.energy()).part < 2e-2);
 }
 
+// It stands on its lower edge for the most part, and waves press its contacts and let them go.
+TEST_CASE("a deformable body below its friction stands on a steep slope", "[contact]") {
+  const double friction = GENERATE(45, 60), restitution = GENERATE(0.05, 0.3, 0.7),
+               stiffness_damping = GENERATE(0, 1e-4), safety = GENERATE(0.3, 0.9);
+  CAPTURE(friction, restitution, stiffness_damping, safety);
+  cdem::Joint law = bouncy(restitution);
+  law.normal_stiffness.reset();
+  law.friction_angle = friction * degree;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("floor", box({2, 2, 0.5}, {2, 2, 1}, {-1, -1, -0.5})),
+                 meshed("cube", box({cube_side, cube_side, cube_side}, {2, 2, 2}, {-0.2, -0.2, 0}))};
+  spec.bodies[0].element = cdem::Element::rigid;
+  spec.bodies[1].material.stiffness_damping = stiffness_damping;
+  spec.default_contact = law;
+  cdem::Simulation s(spec, 1, std::make_shared<cdem::Observer>());
+  s.fix(fixed(cdem::Selection::of_body("floor")));
+  s.gravity(gravity({9.81 * std::sin(40 * degree), 0, -9.81 * std::cos(40 * degree)}));
+  cdem::RunOptions options;
+  options.safety = safety;
+  options.duration = 0.05; // the weight came on at once
+  s.run(options);
+  options.duration = 0.02;
+  const double before = s.mean("displacement.x", cdem::Selection::of_body("cube"));
+  s.run(options);
+  CHECK(s.mean("displacement.x", cdem::Selection::of_body("cube")) - before < 2e-7);
+  CHECK(s.energy().kinetic < 5e-3 * s.energy().external);
+}
+
 TEST_CASE("a flat drop gives the force of the wave, rho c v A, on a rigid floor of any mesh", "[contact]") {
   // nu = 0: a bar. The floor is rigid, so its mesh may mean nothing.
   const int divisions = GENERATE(1, 3, 12);

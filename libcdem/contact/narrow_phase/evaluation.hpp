@@ -68,6 +68,9 @@ private:
   };
   SideMotion motion_of_side(const ContactTriangle& side, const int* nodes, const double* weights, int count,
                             double force) const;
+  // For restitution, of a contact before it advances. velocity: m/s, of its source past its target.
+  void set_approach(const Contact&, const ContactLaw&, const ContactArms&, const geom::Vec3& velocity,
+                    const ContactTriangle& from, const ContactTriangle& to, ContactMotion&) const;
   // old: the contact before the step, null where there was none.
   void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
               const ContactTriangle& from, const ContactTriangle& to);

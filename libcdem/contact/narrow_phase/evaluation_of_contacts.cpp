@@ -33,26 +33,28 @@ Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, c
   return {velocity, own, own};
 }
 
+void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const ContactArms& arms,
+                              const geom::Vec3& velocity, const ContactTriangle& from,
+                              const ContactTriangle& to, ContactMotion& motion) const {
+  const double force = law.kn * std::max(0.0, motion.depth);
+  const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 3, force),
+                   target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
+  motion.acceleration = source.acceleration + target.acceleration;
+  const double rests = part_at_rest(c, motion), closing = -velocity.dot(motion.normal), // m/s
+      approach = (target.velocity - source.velocity).dot(motion.normal);
+  motion.approach = part_of((1 - rests) * approach + rests * closing, reversible_speed(c, motion));
+  // Bodies that part faster than that are no bodies at rest, and nothing turns round.
+  motion.held_at_most =
+      motion.approach <= -1
+          ? 1
+          : std::abs(part_of(2 * closing, work_.step * (source.own_acceleration + target.own_acceleration)));
+}
+
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
                         const ContactLaw& law, const ContactTriangle& from, const ContactTriangle& to) {
   const geom::Vec3 velocity = velocity_past(state_, arms);
   motion.slid = work_.step * velocity;
-  if (work_.restitution && law.damping_ratio > 0) {
-    const double force = law.kn * std::max(0.0, motion.depth);
-    const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 3, force),
-                     target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
-    const auto part = [&](double speed, double acceleration) { // of the speed that a step can reverse
-      const double reversed = work_.step * acceleration;
-      return std::abs(speed) < reversed ? speed / reversed : std::copysign(1.0, speed);
-    };
-    motion.approach = part((target.velocity - source.velocity).dot(motion.normal),
-                           source.acceleration + target.acceleration);
-    // Bodies that part faster than that are no bodies at rest, and nothing turns round.
-    motion.held_at_most = motion.approach <= -1
-                              ? 1
-                              : std::abs(part(2 * velocity.dot(motion.normal),
-                                              source.own_acceleration + target.own_acceleration));
-  }
+  motion.step = work_.step;
   ContactForce force;
   const bool own = old && key(*old) == key(c);
   if (own && work_.step == 0 && old->target == c.target) {
@@ -62,6 +64,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     if (old) {
       c.shear = old->shear;
       c.damping = old->damping;
+      c.at_rest = old->at_rest;
     }
     c.depth = own ? old->depth : 0;
     c.reference_penetration =
@@ -70,6 +73,8 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       force.friction -= take_over(c, *old, law, motion);
     else if (old && old->target != c.target)
       force.friction += target_change_loss(*old, law, motion);
+    if (work_.restitution && law.damping_ratio > 0)
+      set_approach(c, law, arms, velocity, from, to, motion);
     const ContactLoss loss = advance(c, law, motion);
     force.friction += loss.friction;
     force.damping = loss.damping;

@@ -227,7 +227,7 @@ private:
     allowed_.push_back(trusted * (c.reference_penetration - deepest_[i]));
     c.depth = c.reference_penetration;
     c.shear = geom::Vec3::Zero();
-    c.damping = 0;
+    c.damping = c.at_rest = 0;
     out_.contacts.push_back(c);
   }
 
@@ -248,7 +248,7 @@ private:
       c.stiffness = law.kn;
       c.depth = c.reference_penetration + pressed;
       c.shear = geom::Vec3::Zero();
-      c.damping = 0;
+      c.damping = c.at_rest = 0;
     } else if (!(before && work_.step == 0)) {
       ContactMotion motion;
       motion.normal = {push.normal[0][lane], push.normal[1][lane], push.normal[2][lane]};
@@ -259,7 +259,7 @@ private:
       motion.turned = push.turned[lane];
       const double closing = push.closing[lane];
       if (work_.restitution && law.damping_ratio > 0)
-        set_approach(closing, work_.step * work_.step * force * push.compliance[lane], motion);
+        set_approach(c, closing, force * push.compliance[lane], motion);
       const double damping = c.damping;
       if (damping > 0) // stores the same in the spring of now
         c.damping *= std::sqrt(law.kn / c.stiffness);
@@ -291,13 +291,13 @@ private:
     }
   }
 
-  // As for semi-springs: by the speed that the contact's own force can turn round in a step, reversed: m in the step.
-  static void set_approach(double closing, double reversed, ContactMotion& motion) {
-    const auto part = [&](double way) {
-      return std::abs(way) < reversed ? way / reversed : std::copysign(1.0, way);
-    };
-    motion.approach = part(closing);
-    motion.held_at_most = motion.approach <= -1 ? 1 : std::abs(part(2 * closing));
+  // As for semi-springs: by the acceleration that the contact's own force gives the two tetrahedra.
+  void set_approach(const Contact& c, double closing, double acceleration, ContactMotion& motion) const {
+    motion.step = work_.step;
+    motion.acceleration = acceleration;
+    motion.approach = part_of(closing, work_.step * reversible_speed(c, motion));
+    motion.held_at_most =
+        motion.approach <= -1 ? 1 : std::abs(part_of(2 * closing, work_.step * work_.step * acceleration));
   }
 
   // What its shear force and its damping stored is lost; its potential has given back what it had.

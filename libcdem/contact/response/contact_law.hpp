@@ -10,10 +10,19 @@
 //   bodies approach:  D = r kn q,        q <- q + closing of this step, 0 <= q <= s p
 //   they separate:    D = -r kn p |s|,   only while the contact itself opens; q = 0
 //
-// p is the effective penetration, s = v / v0 within -1 and 1, v the speed at which the bodies approach, and v0 the speed that
-// the forces of one step can reverse: a body at rest stays at rest. While they approach D is a spring that stores
-// 1/2 r kn q^2. Damping is what it loses when its bound s p falls, and the work of D while the contact opens. So damping
-// never gives energy back, whatever the waves in the bodies do.
+// p is the effective penetration, s = v / v0 within -1 and 1. While the bodies approach D is a spring that stores
+// 1/2 r kn q^2. Damping is what it loses when its bound s p falls, and the work of D while the contact opens. So damping never
+// gives energy back, whatever the waves in the bodies do.
+//
+//   v  = (1 - w) v_bodies + w v_contact,  v0 = max(a dt, w sqrt(a p)),  w = min(1, p_rest / p)
+//   d p_rest / dt = (p - p_rest) sqrt(a / p) / 60
+//
+// v_bodies: speed at which the bodies approach, each moving as a whole; v_contact: at which the contact closes; a: acceleration
+// that the contacts give the bodies, so sqrt(p / a) is the time scale of an oscillation. In an impact w is next to nothing, and D
+// is there in full down to the speed that the forces of one step reverse. A contact that carries for long has w = 1, and v0 is the
+// speed that its forces reverse within its depth: what is slower vibrates about its rest, and D is in proportion to v, as of a
+// dashpot. If D jumped with each change of direction, so would the limit of friction, and a body would creep down a slope far
+// below its friction.
 //
 // An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
 // a millimetre would throw a unit into the air.
@@ -49,7 +58,9 @@ struct ContactMotion {
   double depth = 0;                       // m, now
   geom::Vec3 slid = geom::Vec3::Zero();   // m, of the source past the target
   double turned = 0;                      // rad, of the two faces about the normal
+  double step = 0;                        // s, in which that happened
   double approach = 0;                    // s of restitution: 1 the bodies approach, -1 they separate
+  double acceleration = 0;                // m/s2, a of restitution
   // Part of the damping force, up to 1, that does not turn the contact's own motion round within the step.
   double held_at_most = 0;
 };
@@ -89,6 +100,31 @@ inline double stored_by_damping(const Contact& c, const ContactLaw& law) {
   return 0.5 * std::max(0.0, c.damping) * pressed_by_approach(c, law);
 }
 
+// speed / reversed, within -1 and 1.
+inline double part_of(double speed, double reversed) {
+  return std::abs(speed) < reversed ? speed / reversed : std::copysign(1.0, speed);
+}
+
+// w of restitution, of a contact before it advances: 0 in an impact, 1 at rest.
+inline double part_at_rest(const Contact& c, const ContactMotion& m) {
+  const double pressed = std::max(0.0, m.depth - c.reference_penetration);
+  return pressed > c.at_rest ? c.at_rest / pressed : pressed > 0 ? 1 : 0;
+}
+
+// m/s, v0 of restitution, of a contact before it advances.
+inline double reversible_speed(const Contact& c, const ContactMotion& m) {
+  const double pressed = std::max(0.0, m.depth - c.reference_penetration);
+  return std::max(m.step * m.acceleration, part_at_rest(c, m) * std::sqrt(m.acceleration * pressed));
+}
+
+// Advances the mean penetration of restitution.
+inline void advance_rest(Contact& c, const ContactMotion& m) {
+  constexpr double time_scales = 60; // some ten oscillations, twenty times as long as an impact
+  const double pressed = c.effective_penetration();
+  const double part = pressed > 0 ? m.step * std::sqrt(m.acceleration / pressed) / time_scales : 1;
+  c.at_rest += std::min(1.0, part) * (pressed - c.at_rest);
+}
+
 // Advances the force of restitution of a contact that is as deep as it is now. closing: m, in the step. Returns what it
 // took, J, by the trapezoidal rule; what opens further than q leaves the spring at 0.
 inline double advance_damping(Contact& c, const ContactLaw& law, const ContactMotion& m, double closing) {
@@ -98,6 +134,7 @@ inline double advance_damping(Contact& c, const ContactLaw& law, const ContactMo
     c.damping = stiffness * std::clamp(q + closing, 0.0, m.approach * pressed);
   else
     c.damping = closing < 0 ? -stiffness * pressed * std::min(-m.approach, m.held_at_most) : 0;
+  advance_rest(c, m);
   return 0.5 * before * (before > 0 ? std::max(closing, -q) : closing) +
          0.5 * c.damping * (c.damping > 0 ? std::max(closing, -q) : closing) + stored -
          stored_by_damping(c, law);
