@@ -103,11 +103,11 @@ Stage::~Stage() {
 
 double Stage::update_contacts() {
   times_.end(StepLine::others);
-  const std::int64_t searches = work.contact.searches;
+  const std::int64_t searches = work.contact.search.count;
   contacts_.evaluate(context_, work.contact, context_.log);
   const double longest = contacts_.longest_step(context_, work, safety, here());
   if (!context_.model.surface.empty())
-    times_.end(work.contact.searches > searches ? StepLine::contact_search : StepLine::contacts);
+    times_.end(work.contact.search.count > searches ? StepLine::contact_search : StepLine::contacts);
   return longest;
 }
 
@@ -210,17 +210,16 @@ void Stage::look_over() {
     require_sound_state();
   const bool faces = !context_.state.face_slip.empty() || !context_.model.mesh.sides.empty();
   if (faces || !all_bonds_are_told(context_.model, context_.state)) {
-    work.contact.fragments_due = true;
-    work.contact.anew = work.contact.anew || faces;
-    std::fill(work.contact.told_due.begin(), work.contact.told_due.end(), 1);
+    work.contact.search.fragments_due = true;
+    work.contact.search.anew = work.contact.search.anew || faces;
+    std::fill(work.contact.search.told_due.begin(), work.contact.search.told_due.end(), 1);
   }
   times_.end(StepLine::watch);
   synchronise_contacts(context_.log);
   times_.end(StepLine::contact_search);
   broken_between_ += synchronise_stress(context_.log);
   times_.end(StepLine::elements);
-  if (work.contact
-          .fragments_due) // faces have been handed over: a stage that goes on from here would not know
+  if (work.contact.search.fragments_due) // faces have been handed over: a stage that goes on would not know
     synchronise_contacts(context_.log);
   times_.end(StepLine::contact_search);
   look_for_escapes();
@@ -313,9 +312,9 @@ void Stage::release_parted_blocks() {
     find_idle_springs(context_.model, context_.state, work.bond);
   context_.state.spent.breaking += released.stored;
   context_.state.spent.external += released.water;
-  work.contact.fragments_due = work.contact.fragments_due || released.interfaces > 0;
-  for (std::size_t block = 0; block < work.contact.told_due.size(); ++block)
-    work.contact.told_due[block] |= released.blocks[block];
+  work.contact.search.fragments_due = work.contact.search.fragments_due || released.interfaces > 0;
+  for (std::size_t block = 0; block < work.contact.search.told_due.size(); ++block)
+    work.contact.search.told_due[block] |= released.blocks[block];
 }
 
 void Stage::poll() {

@@ -52,7 +52,7 @@ std::vector<std::int32_t> nodes_of_bolts(const ResolvedConditions& r) {
 
 void Stage::share() {
   if (ranks().alone()) {
-    work.shared = std::make_shared<SharedState>(context_.model);
+    work.share(std::make_shared<SharedState>(context_.model));
     return;
   }
   if (gave_back_) { // loads on nodes that others owned
@@ -64,8 +64,7 @@ void Stage::share() {
   }
   const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
   const std::vector<double> loads = chunk_loads(context_.model, context_.state, all);
-  work.shared = std::make_shared<SharedState>(context_.model, nodes_of_bolts(work.resolved), loads);
-  work.contact.shared = work.shared.get();
+  work.share(std::make_shared<SharedState>(context_.model, nodes_of_bolts(work.resolved), loads));
   loads_ = in_words(shares_of_load(loads, work.part().chunk_begin));
 }
 
@@ -104,7 +103,7 @@ void Stage::share_anew() {
   if (carried)
     work.shared->shares().gather_nodes(*carried);
   share();
-  work.contact.fragments_due = work.contact.all_due = true;
+  work.contact.search.fragments_due = work.contact.search.all_due = true;
   ++shared_anew_;
   context_.observer.message(
       fmt::format("stage {} {}, step {}: chunks are shared anew, loads of the ranks {} before, {} now",
@@ -120,8 +119,8 @@ void Stage::give_back() {
   for (std::vector<Node>* of_nodes : {&work.resolved.external, &work.resolved.constant})
     release_outside(*of_nodes, work.shared->shares().kept_nodes());
   release_zeros(work.partial);
-  release_zeros(work.contact.force);
-  release_zeros(work.contact.stiffness);
+  release_zeros(work.contact.loads.force);
+  release_zeros(work.contact.loads.stiffness);
   trim_heap(); // what building and looking at the whole has left
 }
 

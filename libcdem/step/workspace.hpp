@@ -36,10 +36,14 @@ struct Workspace {
 
   // The part of the model that this rank computes and tells the others.
   std::shared_ptr<SharedState> shared;
+  void share(std::shared_ptr<SharedState> part) {
+    shared = std::move(part);
+    contact.shared = shared.get();
+  }
   const Partition& part() const { return shared->part(); }
 
   ActingForces acting() const {
-    return {resolved, contact.force, contact.on_rigid, bond.force(), bond.idle.block};
+    return {resolved, contact.loads.force, contact.loads.on_rigid, bond.force(), bond.idle.block};
   }
 };
 
