@@ -26,6 +26,7 @@ struct Workspace {
   bool damped = false;                  // stiffness damping acts
   const StrengthWatch* watch = nullptr; // of cohesive bodies, where they may break; null: none
   NearStrength near;                    // written by mesh_forces
+  bool has_shared_nodes = false;        // some node is touched by several chunks
   bool hand_over_due =
       true; // broken faces that are gone go to contact in this step; a stage does so at times
   ContactWork contact;
