@@ -24,8 +24,8 @@ Forces forces_now(const Model& model, const State& state) {
   Workspace work(model, state, {});
   Forces forces;
   forces.inner = inner_forces(model, state, work);
-  forces.contact = work.contact.force;
-  forces.on_rigid = work.contact.on_rigid;
+  forces.contact = work.contact.loads.force;
+  forces.on_rigid = work.contact.loads.on_rigid;
   return forces;
 }
 

@@ -27,42 +27,44 @@ constexpr std::int64_t chunks_at_a_time = 16;
 bool add_displacements(const Model& model, const State& state, ContactWork& work, int threads) {
   if (work.movers.count() == 0)
     return true; // not searched yet
+  MoverMotion& motion = work.motion;
   set_displacements(model, state, work, threads);
-  for (std::size_t m = 0; m < work.travelled.size(); ++m)
-    work.travelled[m] += work.last_displacement[m];
-  for (std::size_t b = 0; b < work.path.size(); ++b) // rounded up
-    if (work.last_displacement[b] > 0)
-      work.path[b] =
-          (work.path[b] + work.last_displacement[b]) * (1 + std::numeric_limits<double>::epsilon());
-  set_poses(model, state, work);
+  for (std::size_t m = 0; m < motion.travelled.size(); ++m)
+    motion.travelled[m] += motion.last_displacement[m];
+  for (std::size_t b = 0; b < work.rigid_pairs.path.size(); ++b) // rounded up
+    if (motion.last_displacement[b] > 0)
+      work.rigid_pairs.path[b] = (work.rigid_pairs.path[b] + motion.last_displacement[b]) *
+                                 (1 + std::numeric_limits<double>::epsilon());
+  set_poses(model, state, work.rigid_pairs);
   if (work.step > 0)
-    work.last_step = work.step;
-  ++work.steps_since_search;
-  ++work.steps;
+    motion.last_step = work.step;
+  ++work.search.steps_since;
+  ++work.rigid_pairs.steps;
   set_drifts(model, state, work, threads);
   bool out = false;
   for (int m = 0; m < work.movers.count(); ++m) {
     const bool fragment = m >= static_cast<int>(model.blocks.size());
-    if (!fragment && work.broken[m])
+    if (!fragment && work.movers.broken[m])
       continue;
-    const double gone = gone_at_most(model, work, m);
-    if (gone > work.undefined_pair_margin || (!fragment && gone > work.skin[m]))
-      out = work.blocks_due = true;
-    out = out || gone > work.skin[m];
+    const double gone = gone_at_most(model, work.motion, m);
+    if (gone > work.search.undefined_pair_margin || (!fragment && gone > motion.skin[m]))
+      out = work.search.blocks_due = true;
+    out = out || gone > motion.skin[m];
   }
-  if (any_left_skin(work))
-    out = work.pairs_due = true;
+  if (any_left_skin(work.rigid_pairs))
+    out = work.search.pairs_due = true;
   return out;
 }
 
 // Marks the edges that have a contact before the step.
-void mark_touched_edges(const std::vector<Contact>& contacts, ContactWork& work) {
-  std::fill(work.edge_touched.begin(), work.edge_touched.end(), 0);
-  work.mover_edges_touched.assign(work.movers.count(), 0);
+void mark_touched_edges(const std::vector<Contact>& contacts, const Movers& movers, const SurfaceEdges& edges,
+                        EdgesTouched& touched) {
+  touched.edges.assign(edges.all.size(), 0);
+  touched.movers.assign(movers.count(), 0);
   const auto mark = [&](int id) {
-    for (int e = work.edge_begin[id / 3]; e < work.edge_begin[id / 3 + 1]; ++e)
-      if (work.edges[e].id() == id)
-        work.edge_touched[e] = work.mover_edges_touched[work.movers.of_triangle[id / 3]] = 1;
+    for (int e = edges.begin[id / 3]; e < edges.begin[id / 3 + 1]; ++e)
+      if (edges.all[e].id() == id)
+        touched.edges[e] = touched.movers[movers.of_triangle[id / 3]] = 1;
   };
   for (const Contact& c : contacts)
     if (c.kind == Contact::edge) {
@@ -77,14 +79,15 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   ContactSums sums;
   if (model.surface.empty() || !own.due)
     return sums;
-  own.blocks_due = own.blocks_due || own.looks_at_all;
-  std::fill(own.changed.begin(), own.changed.end(), Change::none);
-  const bool out_of_skin = add_displacements(model, state, own, threads) || own.looks_at_all,
-             fragments_due = own.fragments_due, known = own.history_complete, anew = own.anew;
+  own.search.blocks_due = own.search.blocks_due || own.options.looks_at_all;
+  std::fill(own.movers.changed.begin(), own.movers.changed.end(), Change::none);
+  const bool out_of_skin = add_displacements(model, state, own, threads) || own.options.looks_at_all,
+             fragments_due = own.search.fragments_due, known = own.search.history_complete,
+             anew = own.search.anew;
   if (fragments_due || out_of_skin) {
     begin_search(state, own);
-    tell_of_bonds(model, state, own.told_due);
-    std::fill(own.told_due.begin(), own.told_due.end(), 0);
+    tell_of_bonds(model, state, own.search.told_due);
+    std::fill(own.search.told_due.begin(), own.search.told_due.end(), 0);
     if (!search_contacts(model, state, own, threads))
       return sums; // something is not a number: the stage's watch will say where
     read_nodes_of_rows(model, own);
@@ -97,19 +100,19 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   if (fragments_due) {
     for (Contact& c : state.contacts)
       if (c.kind == Contact::spring)
-        c.fragment = own.fragment[c.target];
+        c.fragment = own.movers.fragment_of_triangle[c.target];
     std::sort(state.contacts.begin(), state.contacts.end(),
               [](const Contact& a, const Contact& b) { return key(a) < key(b); });
   }
-  const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].size()),
-             edges = static_cast<std::int64_t>(own.rows[Contact::edge].size());
+  const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].all.size()),
+             edges = static_cast<std::int64_t>(own.rows[Contact::edge].all.size());
   const auto chunks = [](std::int64_t rows) {
     return (rows + contact_rows_per_chunk - 1) / contact_rows_per_chunk;
   };
   const std::int64_t n_springs = chunks(springs);
   const std::int64_t n_chunks = n_springs + chunks(edges);
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
-  mark_touched_edges(state.contacts, own);
+  mark_touched_edges(state.contacts, own.movers, own.edges, own.edges_touched);
   if (own.restitution) {
     sum_block_forces(model, state, own);
     find_block_motions(model, state, own, threads);
@@ -126,14 +129,14 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
       const bool edge = first + i >= n_springs;
       const Contact::Kind kind = edge ? Contact::edge : Contact::spring;
       const std::int64_t begin = (edge ? first + i - n_springs : first + i) * contact_rows_per_chunk;
-      ContactCandidate* const candidates = own.candidates[kind].data();
+      ContactCandidate* const candidates = own.rows[kind].candidates.data();
       Evaluation evaluation(model, state, own, kind, out);
-      RowsAsleep& asleep = own.asleep[kind];
+      RowsAsleep& asleep = own.rows[kind].asleep;
       for (std::uint64_t bits = asleep.awake[begin / contact_rows_per_chunk]; bits != 0; bits &= bits - 1) {
         const std::int64_t r = begin + __builtin_ctzll(bits);
-        ContactRow& row = own.rows[kind][r];
+        ContactRow& row = own.rows[kind].all[r];
         const bool hindered = row.hindered;
-        if (!hindered && !own.looks_at_all && sleeps_on(own, row, asleep.recheck_distance[r]))
+        if (!hindered && !own.options.looks_at_all && sleeps_on(own, row, asleep.recheck_distance[r]))
           continue;
         edge ? evaluation.edges(row, candidates) : evaluation.springs(row, candidates);
         if (row.pair >= 0)

@@ -61,12 +61,12 @@ void insert(const Contact& c, std::vector<Contact>& contacts) {
 
 FoundContacts::FoundContacts(const Model& model, State& state, ContactWork& work)
     : model_(model), state_(state), work_(work) {
-  for (const TouchedNode& at : work.touched) {
-    work.force[at.node] = {};
-    work.stiffness[at.node] = 0;
+  for (const TouchedNode& at : work.loads.touched) {
+    work.loads.force[at.node] = {};
+    work.loads.stiffness[at.node] = 0;
   }
-  work.touched.clear();
-  for (RigidSums& sums : work.rigid_sums)
+  work.loads.touched.clear();
+  for (RigidSums& sums : work.loads.rigid_sums)
     if (sums.touches) {
       sums.each([](ExactSum& sum) { sum.clear(); });
       sums.touches = false;
@@ -83,7 +83,7 @@ void FoundContacts::add(const ContactChunk& found, Contact::Kind kind) {
 
 void FoundContacts::add(std::vector<TetChunk> found) {
   tets_ = std::move(found);
-  const bool counts = !work_.shared || work_.shared->part().rank == 0; // else another rank does
+  const bool counts = work_.shared->part().rank == 0; // else another rank does
   for (const TetChunk& chunk : tets_) {
     sums_.depth = std::max(sums_.depth, chunk.depth);
     sums_.depth_over_height = std::max(sums_.depth_over_height, chunk.depth_over_height);
@@ -120,7 +120,7 @@ void FoundContacts::add(const Contact& contact, const ContactForce& force, Conta
   add_on_rigid(force);
   if (both_rigid(model_, force.source_block, force.target_block))
     return;
-  if (!work_.shared) {
+  if (work_.shared->alone()) {
     add_at_nodes(force);
     return;
   }
@@ -128,13 +128,13 @@ void FoundContacts::add(const Contact& contact, const ContactForce& force, Conta
 }
 
 void FoundContacts::add_at_node(int node, int block, const geom::Vec3& force, double stiffness) {
-  Node& sum = work_.force[node];
+  Node& sum = work_.loads.force[node];
   sum.x += force.x();
   sum.y += force.y();
   sum.z += force.z();
-  if (work_.stiffness[node] == 0 && stiffness != 0)
-    work_.touched.push_back({node, block});
-  work_.stiffness[node] += 2 * stiffness; // the weights of both sides sum to 2
+  if (work_.loads.stiffness[node] == 0 && stiffness != 0)
+    work_.loads.touched.push_back({node, block});
+  work_.loads.stiffness[node] += 2 * stiffness; // the weights of both sides sum to 2
 }
 
 void FoundContacts::add_at_nodes(const ContactForce& f) {
@@ -154,8 +154,8 @@ void FoundContacts::add_at_nodes(const ContactForce& f) {
 }
 
 RigidSums& FoundContacts::touched(int rigid) {
-  work_.rigid_sums[rigid].touches = true;
-  return work_.rigid_sums[rigid];
+  work_.loads.rigid_sums[rigid].touches = true;
+  return work_.loads.rigid_sums[rigid];
 }
 
 // Forces at nodes move and turn the body as their resultant does; stiffness counts as if each node moved by itself.
@@ -229,8 +229,8 @@ void FoundContacts::exchange() {
     pack(own.contacts[kind]);
     pack(own.forces[kind]);
   }
-  for (std::size_t rigid = 0; rigid < work_.rigid_sums.size(); ++rigid)
-    if (RigidSums& sums = work_.rigid_sums[rigid]; sums.touches) {
+  for (std::size_t rigid = 0; rigid < work_.loads.rigid_sums.size(); ++rigid)
+    if (RigidSums& sums = work_.loads.rigid_sums[rigid]; sums.touches) {
       pack(static_cast<int>(rigid));
       sums.each([&](const ExactSum& sum) { sum.tell(pack); });
     }
@@ -277,15 +277,15 @@ void FoundContacts::exchange() {
 void FoundContacts::set_values() {
   sums_.friction = friction_.value();
   sums_.damping = damping_.value();
-  for (std::size_t rigid = 0; rigid < work_.rigid_sums.size(); ++rigid) {
-    RigidSums& sums = work_.rigid_sums[rigid];
-    ContactOnRigid& on = work_.on_rigid[rigid];
+  for (std::size_t rigid = 0; rigid < work_.loads.rigid_sums.size(); ++rigid) {
+    RigidSums& sums = work_.loads.rigid_sums[rigid];
+    ContactOnRigid& on = work_.loads.on_rigid[rigid];
     on = {};
     if (!sums.touches)
       continue;
     on.touches = true;
     on.frequency2 = sums.frequency2.value();
-    if (work_.shared && !work_.shared->moves(static_cast<int>(rigid)))
+    if (!work_.shared->moves(static_cast<int>(rigid)))
       continue;
     on.force = values(sums.force);
     on.torque = values(sums.torque);
@@ -294,7 +294,7 @@ void FoundContacts::set_values() {
 
 ContactSums FoundContacts::end() {
   add_losses();
-  if (work_.shared)
+  if (!work_.shared->alone())
     exchange();
   add_tets();
   set_values();
@@ -302,8 +302,7 @@ ContactSums FoundContacts::end() {
   if (work_.now.capacity() > 2 * work_.now.size() + 64)
     work_.now.shrink_to_fit();
   std::swap(state_.contacts, work_.now);
-  if (work_.shared)
-    work_.shared->part_contacts(state_);
+  work_.shared->part_contacts(state_);
   return sums_;
 }
 

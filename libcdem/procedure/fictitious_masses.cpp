@@ -26,7 +26,7 @@ FictitiousMasses::FictitiousMasses(const Model& model, const std::vector<Resolve
     mass = mass_for(mass);
 }
 
-void FictitiousMasses::follow(const Model& model, const ContactWork& contact) {
+void FictitiousMasses::follow(const Model& model, const ContactLoads& contact) {
   for (const auto& [node, block] : contact.touched) {
     if (model.blocks[block].rigid >= 0)
       continue;

@@ -5,7 +5,7 @@
 // too stiff for its node would throw the node back and forth for ever, and the relaxation would never settle.
 #pragma once
 
-#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/data/contact_force.hpp"
 #include "libcdem/load/bolts.hpp"
 #include "libcdem/model/model.hpp"
 
@@ -17,7 +17,7 @@ public:
 
   const std::vector<double>& of_nodes() const { return mass_; } // kg for a unit step (n_nodes)
   // Before every step, when its contacts are known.
-  void follow(const Model&, const ContactWork&);
+  void follow(const Model&, const ContactLoads&);
 
   // For a stage that goes on: numbers that a later add_to gives again. take returns the place behind them.
   void add_to(std::vector<double>& loop_state) const;

@@ -204,7 +204,7 @@ public:
     return numbers;
   }
 
-  void take_contacts(double /*longest_step*/) override { masses_.follow(model_, stage_.work.contact); }
+  void take_contacts(double /*longest_step*/) override { masses_.follow(model_, stage_.work.contact.loads); }
   void update_loads() override { stage_.update_loads(nullptr); }
 
   void move(Range range, const Node* force, NodeSums& sums) override {

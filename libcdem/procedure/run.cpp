@@ -150,8 +150,8 @@ public:
     stage_.escapes = {left_lengths * model_.length,
                       (options.holds_what_left ? left_lengths : run_away_lengths) * model_.length};
     stage_.details = options.details;
-    stage_.work.contact.most_friction = options.most_friction;
-    stage_.work.contact.looks_at_all = options.looks_at_all_contacts;
+    stage_.work.contact.options.most_friction = options.most_friction;
+    stage_.work.contact.options.looks_at_all = options.looks_at_all_contacts;
     stage_.work.damped = !state_.viscous_stress.empty();
     stage_.looks = options.looks;
     if ((options.callback && options.callback_every > 0) || options.stop)

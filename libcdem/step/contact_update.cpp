@@ -49,7 +49,7 @@ double ContactUpdate::longest_step(const StageContext& context, const Workspace&
     refuse_depth(context.model, context.state, sums.deepest_source, sums.deepest_target, here);
   }
   return std::min(
-      contact_time_step(context.model, context.state, work.contact,
+      contact_time_step(context.model, context.state, work.contact.loads,
                         {row_sums_, work.damped,
                          context.state.moving_mass.empty() ? work.bond.contact_damping : 0, safety}),
       displacement_time_step(context.model, context.state, rigid_reach_));
@@ -60,14 +60,14 @@ double ContactUpdate::longest_step_of_flight(const StageContext& context, const 
     return std::numeric_limits<double>::infinity();
   const std::optional<Gravity>& gravity = context.conditions.gravity;
   return flight_time_step(
-      context.model, context.state, work.contact,
+      context.model, context.state, work.contact.loads,
       {impact_frequency2_, work.resolved.rigid, gravity ? gravity->acceleration.norm() : 0});
 }
 
 void ContactUpdate::go_on(ContactWork& work) {
-  std::fill(work.told_due.begin(), work.told_due.end(), 0);
-  work.history_complete = true;
-  work.anew = false;
+  std::fill(work.search.told_due.begin(), work.search.told_due.end(), 0);
+  work.search.history_complete = true;
+  work.search.anew = false;
 }
 
 void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_surfaces) const {
@@ -76,14 +76,13 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_
   ContactWork before = std::move(work);
   work = {};
   start_contact(model, work);
-  work.last_step = before.last_step;
-  work.most_friction = before.most_friction;
-  work.looks_at_all = before.looks_at_all;
+  work.motion.last_step = before.motion.last_step;
+  work.options = before.options;
   work.restitution = before.restitution;
   work.shared = before.shared;
-  if (before.neighbours.size() ==
+  if (before.tets_beyond.neighbours.size() ==
       4 * model.mesh.tet_slot.size()) // tets keep their numbers where nodes are freed
-    work.neighbours = std::move(before.neighbours);
+    work.tets_beyond.neighbours = std::move(before.tets_beyond.neighbours);
   go_on(work);
   if (same_surfaces)
     keep_rigid_pairs(before, work);

@@ -76,8 +76,8 @@ std::vector<Node> net_forces(const Model& model, const State& state, Workspace& 
   std::vector<Node> force = inner_forces(model, state, work);
   const ResolvedConditions& r = work.resolved;
   for (std::size_t i = 0; i < force.size(); ++i) {
-    if (!work.contact.force.empty())
-      add(force[i], work.contact.force[i]);
+    if (!work.contact.loads.force.empty())
+      add(force[i], work.contact.loads.force[i]);
     if (!r.internal.empty())
       add(force[i], r.internal[i]);
     if (!r.external.empty())

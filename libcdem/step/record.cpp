@@ -108,8 +108,8 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.plastic += sums.plastic;
     state.spent.external += sums.external;
     if (sums.hands_over) {
-      work.contact.fragments_due = true;
-      work.contact.told_due[chunk.block] = 1;
+      work.contact.search.fragments_due = true;
+      work.contact.search.told_due[chunk.block] = 1;
     }
     for (const FaceBreak& broken : sums.broken) {
       const FaceSpringPlace at{chunk.face_batches.begin + broken.spring / (3 * lanes),

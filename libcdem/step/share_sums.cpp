@@ -136,4 +136,25 @@ void share_sums(Workspace& work, BegunCracks& begun, std::int64_t tellers) {
   begun = std::move(all);
 }
 
+std::vector<std::uint8_t> near_of_all_ranks(const Workspace& work) {
+  const StateShares& shares = work.shared->shares();
+  const Range own_bits = shares.own(shares.batch_begin());
+  const auto bits = work.near.bits.begin();
+  const std::string own(bits + own_bits.begin, bits + own_bits.end);
+  std::vector<std::uint8_t> all;
+  for (const std::string& of_rank : ranks().gather(own))
+    all.insert(all.end(), of_rank.begin(), of_rank.end());
+  return all;
+}
+
+void take_near_of_all(std::vector<std::uint8_t> of_all, Workspace& work) {
+  work.near.bits = std::move(of_all);
+  work.near.crack_known = true;
+  const StateShares& shares = work.shared->shares();
+  const Range own = shares.own(shares.batch_begin());
+  const auto bits = work.near.bits.begin();
+  std::fill(bits, bits + own.begin, NearStrength::may_crack);
+  std::fill(bits + own.end, work.near.bits.end(), NearStrength::may_crack);
+}
+
 } // namespace cdem

@@ -18,4 +18,8 @@ void share_reliefs(BegunCracks&);
 // tellers: of how many ranks that is so.
 void share_sums(Workspace&, BegunCracks&, std::int64_t tellers);
 
+// NearStrength::bits of all ranks. Taken from others, nothing is known of their tets in the steps to come.
+std::vector<std::uint8_t> near_of_all_ranks(const Workspace&);
+void take_near_of_all(std::vector<std::uint8_t>, Workspace&);
+
 } // namespace cdem

@@ -16,7 +16,6 @@
 
 #include <cmath>
 #include <exception>
-#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -74,40 +73,38 @@ double relative_residual(const NodeSums& sums) {
 Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : work(context.model, context.state, context.conditions), context_(context),
       threads_(useful_threads(context.model, context.threads)), contacts_(context),
-      watch_(StrengthWatch::of(context.model)), kind_(std::move(kind)), run_away_(run_away),
-      broken_tension_before_(context.log.broken_tension), broken_shear_before_(context.log.broken_shear),
-      start_(std::chrono::steady_clock::now()),
-      progress_(context.observer, context.log, context.from ? context.from->step : 0) {
-  start_watch();
+      watch_(StrengthWatch::of(context.model)),
+      run_away_(run_away), broken_{0, 0, context.log.broken_tension, context.log.broken_shear},
+      progress_(context, std::move(kind)), shares_(context_, work) {
+  work.watch = watch_.empty() ? nullptr : &watch_;
   (void)instruction_set(); // a bad name of one is told of here, not by a thread
   context_.threads = threads_.threads();
   ask_for_huge_pages_of(context_.model, context_.state, work);
   start_spring_forces(context_.model, context_.state, work.bond);
-  share();
-  warn_of_idle_ranks();
+  shares_.share(moving());
   if (context_.from)
     go_on_from(*context_.from);
   else
     keep_start_of_loop(context_);
   keep_last_good();
-  give_back();
+  shares_.give_back();
 }
 
 Stage::~Stage() {
-  if (left_alone())
+  if (shares_.left_alone())
     return;
   synchronise();
-  if (std::uncaught_exceptions() > exceptions_) // the last good state is written
+  if (shares_.has_failed()) // the last good state is written
     work.shared->shares().gather_on_lead(context_.last_good);
 }
 
 double Stage::update_contacts() {
-  times_.end(StepLine::others);
-  const std::int64_t searches = work.contact.searches;
+  progress_.times.end(StepLine::others);
+  const std::int64_t searches = work.contact.search.count;
   contacts_.evaluate(context_, work.contact, context_.log);
   const double longest = contacts_.longest_step(context_, work, safety, here());
   if (!context_.model.surface.empty())
-    times_.end(work.contact.searches > searches ? StepLine::contact_search : StepLine::contacts);
+    progress_.times.end(work.contact.search.count > searches ? StepLine::contact_search : StepLine::contacts);
   return longest;
 }
 
@@ -124,7 +121,7 @@ void Stage::update_loads(const Stepping* stepping) {
   if (!r.bolts.empty())
     advance_bolts(r.bolts, context_.state, r.varying[r.bolt_load].forces);
   update_external(r, time, moving());
-  times_.end(StepLine::loads);
+  progress_.times.end(StepLine::loads);
 }
 
 double Stage::update_crack_pressures(double stable) {
@@ -159,10 +156,10 @@ void Stage::end_step(double time_step) {
 }
 
 void Stage::synchronise() {
-  if (left_alone())
+  if (shares_.left_alone())
     return;
   synchronise_contacts(context_.log);
-  broken_between_ += synchronise_stress(context_.log);
+  broken_.between += synchronise_stress(context_.log);
   see_whole();
 }
 
@@ -210,19 +207,18 @@ void Stage::look_over() {
     require_sound_state();
   const bool faces = !context_.state.face_slip.empty() || !context_.model.mesh.sides.empty();
   if (faces || !all_bonds_are_told(context_.model, context_.state)) {
-    work.contact.fragments_due = true;
-    work.contact.anew = work.contact.anew || faces;
-    std::fill(work.contact.told_due.begin(), work.contact.told_due.end(), 1);
+    work.contact.search.fragments_due = true;
+    work.contact.search.anew = work.contact.search.anew || faces;
+    std::fill(work.contact.search.told_due.begin(), work.contact.search.told_due.end(), 1);
   }
-  times_.end(StepLine::watch);
+  progress_.times.end(StepLine::watch);
   synchronise_contacts(context_.log);
-  times_.end(StepLine::contact_search);
-  broken_between_ += synchronise_stress(context_.log);
-  times_.end(StepLine::elements);
-  if (work.contact
-          .fragments_due) // faces have been handed over: a stage that goes on from here would not know
+  progress_.times.end(StepLine::contact_search);
+  broken_.between += synchronise_stress(context_.log);
+  progress_.times.end(StepLine::elements);
+  if (work.contact.search.fragments_due) // faces have been handed over: a stage that goes on would not know
     synchronise_contacts(context_.log);
-  times_.end(StepLine::contact_search);
+  progress_.times.end(StepLine::contact_search);
   look_for_escapes();
 }
 
@@ -249,7 +245,7 @@ void Stage::look_for_escapes() {
   }
   if (!holds)
     return;
-  gave_back_ = false;
+  shares_.resolved();
   work.resolved = resolve(context_.model, context_.state, context_.conditions);
   update_external(work.resolved, context_.state.time, moving());
 }
@@ -283,17 +279,17 @@ void Stage::watch() {
     see_whole();
     look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   }
-  times_.end(StepLine::watch);
+  progress_.times.end(StepLine::watch);
   poll();
 }
 
 void Stage::record_step() {
   const Model& model = context_.model;
   EnergyLedger& spent = context_.state.spent;
-  broken_in_step_ = std::exchange(broken_between_, 0);
-  broken_in_step_ += record_bond_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
-  broken_in_step_ += record_face_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
-  broken_in_step_ +=
+  broken_.in_step = std::exchange(broken_.between, 0);
+  broken_.in_step += record_bond_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
+  broken_.in_step += record_face_breaks(model, context_.state, work, context_.log, context_.number, step - 1);
+  broken_.in_step +=
       record_begun_cracks(model, context_.state, begun_, context_.log, context_.number, step - 1);
   begun_ = {};
   spent.external += report.sums.external;
@@ -313,9 +309,9 @@ void Stage::release_parted_blocks() {
     find_idle_springs(context_.model, context_.state, work.bond);
   context_.state.spent.breaking += released.stored;
   context_.state.spent.external += released.water;
-  work.contact.fragments_due = work.contact.fragments_due || released.interfaces > 0;
-  for (std::size_t block = 0; block < work.contact.told_due.size(); ++block)
-    work.contact.told_due[block] |= released.blocks[block];
+  work.contact.search.fragments_due = work.contact.search.fragments_due || released.interfaces > 0;
+  for (std::size_t block = 0; block < work.contact.search.told_due.size(); ++block)
+    work.contact.search.told_due[block] |= released.blocks[block];
 }
 
 void Stage::poll() {
@@ -356,12 +352,12 @@ StageResult Stage::finish() {
   see_whole();
   look_at_units(context_.model, context_.state, context_.conditions, context_.log);
   sample();
-  times_.end(StepLine::watch);
+  progress_.times.end(StepLine::watch);
   tell(true);
   if (!kept_end_)
     keep_last_good(); // last: whoever ends a stage before goes on from the restart point and the state that stood there
-  return {step, report.residual, context_.log.broken_tension - broken_tension_before_,
-          context_.log.broken_shear - broken_shear_before_, wall_time()};
+  return {step, report.residual, context_.log.broken_tension - broken_.tension_before,
+          context_.log.broken_shear - broken_.shear_before, progress_.wall_time()};
 }
 
 void Stage::sample_start() {
@@ -389,24 +385,22 @@ void Stage::sample() {
 
 void Stage::tell(bool last) {
   Progress progress = report.goals;
-  progress.stage = context_.number;
-  progress.kind = kind_;
   progress.step = step;
   progress.residual = report.residual;
   progress.time = context_.state.time;
-  progress.wall_time = wall_time();
-  if (last)
-    progress.times =
-        times_.text() + (shared_anew_ > 0 ? fmt::format("; chunks shared anew: {}", shared_anew_) : "");
   if (details)
     details(progress);
-  if (!loads_.empty())
-    progress.note += (progress.note.empty() ? "" : ", ") + ("loads of the ranks " + loads_);
+  shares_.add_to(progress);
   progress_(std::move(progress), last);
 }
 
-double Stage::wall_time() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+void Stage::see_whole() {
+  work.shared->gather(context_.state);
+}
+
+void Stage::see_surfaces(std::vector<Node>& by_node) {
+  work.shared->gather_surfaces(context_.state);
+  work.shared->shares().gather_nodes(by_node);
 }
 
 } // namespace cdem

@@ -11,12 +11,9 @@
 #include "libcdem/step/options.hpp"
 #include "libcdem/step/progress_reporter.hpp"
 #include "libcdem/step/share_sums.hpp"
-#include "libcdem/step/soundness.hpp"
-#include "libcdem/step/stage_context.hpp"
-#include "libcdem/step/step_times.hpp"
+#include "libcdem/step/stage_shares.hpp"
 #include "libcdem/step/timed_look.hpp"
 
-#include <exception>
 #include <memory>
 
 namespace cdem {
@@ -76,7 +73,7 @@ public:
   double update_crack_pressures(double stable);
   // Loads, supports that vary and free fields for the step that begins; null: of a relaxation, what follows the rock.
   void update_loads(const Stepping*);
-  std::int64_t broken_in_step() const { return broken_in_step_; }
+  std::int64_t broken_in_step() const { return broken_.in_step; }
 
   // The end of the stage as a point from which another one may go on, which calls its first step 0. Before finish.
   void keep_end(std::vector<double> loop_state);
@@ -125,25 +122,16 @@ private:
 
   void go_on_from(const RestartPoint&);
   void note(RestartPoint&, std::vector<double> loop_state) const;
-  void share(); // with other ranks, when there are any
-  void start_watch();
-  void warn_of_idle_ranks() const;
-  void share_anew();          // where the loads of ranks are uneven
-  bool left_alone() const;    // by an error that the other ranks, which are elsewhere, do not have
   void require_sound_state(); // Throws SolutionError
   void keep_last_good();      // of this rank's share
-  void give_back();           // memory of what other ranks own
   void synchronise_contacts(RunLog&);
-  std::int64_t synchronise_stress(RunLog&);      // returns how many springs broke, of which the log is told
-  BegunCracks begun_cracks();                    // what share_sums sends
-  std::vector<std::uint8_t> near_of_all() const; // NearStrength::bits of all ranks
-  void take_near(std::vector<std::uint8_t> of_all);
+  std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
+  BegunCracks begun_cracks();               // what share_sums sends
   void change_nodes(Freed);
 
   // m/s, of the nodes, for loads that depend on it; null in a relaxation, whose velocities are lengths per step.
   const std::vector<Node>* moving() const { return in_real_time ? &context_.state.velocity : nullptr; }
-  double wall_time() const; // s
-  StageStep here() const { return {context_.number, kind_, step}; }
+  StageStep here() const { return {context_.number, progress_.kind(), step}; }
   void record_step(); // energies and breaks
   void release_parted_blocks();
   void look_over();        // the state is sound and up to date
@@ -155,31 +143,26 @@ private:
 
   StageContext context_;
   bool sampled_start_ = false; // the last row of the history waits for its residual
-  bool gave_back_ = false;     // since it was last shared
-  int exceptions_ = std::uncaught_exceptions();
-  int shared_anew_ = 0; // how often
-  std::string loads_;   // of the ranks, when they were last counted
   ThreadChoice threads_;
   ContactUpdate contacts_;
-  StepTimes times_;
   StrengthWatch watch_;   // empty without cohesive bodies
   double time_step_ = 0;  // s, of the step to come
   BegunCracks begun_;     // in this step
   std::vector<int> slid_; // interfaces to renew before the next step
   bool begins_ = true;    // no step of this stage, or of one that it goes on from, has been made before
   bool kept_end_ = false;
-  // Workspace::strain_step (s) and the log, as they were for the state that was kept last.
-  double good_strain_step_ = 0;
-  std::size_t good_breaks_ = 0;
-  OneWayEnergies good_one_way_;
-  bool has_shared_nodes_ = false; // some node is touched by several chunks
-  std::string kind_;
+  struct Good { // Workspace::strain_step (s) and the log, as they were for the state that was kept last
+    double strain_step = 0;
+    std::size_t breaks = 0;
+    OneWayEnergies one_way;
+  } good_;
   double run_away_;
-  bool breaking_ = false;                                // in the last step
-  std::int64_t broken_in_step_ = 0, broken_between_ = 0; // the latter: as faces were brought up to date
-  std::int64_t broken_tension_before_ = 0, broken_shear_before_ = 0;
-  std::chrono::steady_clock::time_point start_;
+  bool breaking_ = false; // in the last step
+  struct Broken {         // bonds; between two steps: as faces were brought up to date
+    std::int64_t in_step = 0, between = 0, tension_before = 0, shear_before = 0;
+  } broken_;
   ProgressReporter progress_;
+  StageShares shares_;
 };
 
 // Number of the allowed threads that the model keeps busy.

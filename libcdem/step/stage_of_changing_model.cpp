@@ -51,7 +51,7 @@ bool Stage::split_nodes(double time_step) {
   }
   if (due)
     change_nodes(cdem::split_nodes(model, state, nodes));
-  times_.end(StepLine::cracks);
+  progress_.times.end(StepLine::cracks);
   return due;
 }
 
@@ -73,7 +73,7 @@ bool Stage::join_nodes() {
     change_nodes(cdem::join_nodes(model, state, nodes));
     state.spent.cutting += before - energy(model, state).total();
   }
-  times_.end(StepLine::cracks);
+  progress_.times.end(StepLine::cracks);
   return any;
 }
 
@@ -82,7 +82,7 @@ void Stage::change_nodes(Freed freed) {
   const Model& model = context_.model;
   State& state = context_.state;
   const bool near_known = work.near.crack_known;
-  const std::vector<std::uint8_t> near = near_of_all();
+  const std::vector<std::uint8_t> near = near_of_all_ranks(work);
   const std::vector<int> slots = model.mesh.tet_slot;
   const FlowPatterns flows = flow_patterns(work.resolved);
   const std::vector<int> new_node = new_nodes_of_unchanged(model, freed.model);
@@ -102,14 +102,14 @@ void Stage::change_nodes(Freed freed) {
     work.bond.laws[i] = law_of_interface(model, model.interfaces[i]);
   work.contact = std::move(before.contact);
   watch_.freed(model);
-  start_watch();
-  gave_back_ = false;
-  share();
+  work.watch = &watch_;
+  shares_.resolved();
+  shares_.share(moving());
   if (near_known) {
     std::vector<std::uint8_t> now(model.mesh.batches.size(), 0);
     for (std::size_t tet = 0; tet < slots.size(); ++tet)
       now[model.mesh.tet_slot[tet] / lanes] |= near[slots[tet] / lanes];
-    take_near(std::move(now));
+    take_near_of_all(std::move(now), work);
   }
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact, false);
@@ -122,38 +122,6 @@ void Stage::change_nodes(Freed freed) {
   preload_faces(model, state, net_forces(model, state, work), freed.anew);
   work.bond = bond;
   contacts_.start_anew(model, work.contact, true);
-}
-
-void Stage::start_watch() {
-  work.watch = watch_.empty() ? nullptr : &watch_;
-  work.near = {};
-  const MeshData& mesh = context_.model.mesh;
-  work.near.bits.assign(mesh.batches.size(), NearStrength::may_crack);
-  has_shared_nodes_ = std::any_of(mesh.chunks.begin(), mesh.chunks.end(), [](const MeshChunk& chunk) {
-    return !chunk.stars && chunk.inner_end < chunk.nodes.end;
-  });
-}
-
-std::vector<std::uint8_t> Stage::near_of_all() const {
-  const StateShares& shares = work.shared->shares();
-  const Range own_bits = shares.own(shares.batch_begin());
-  const auto bits = work.near.bits.begin();
-  const std::string own(bits + own_bits.begin, bits + own_bits.end);
-  std::vector<std::uint8_t> all;
-  for (const std::string& of_rank : ranks().gather(own))
-    all.insert(all.end(), of_rank.begin(), of_rank.end());
-  return all;
-}
-
-// Of tets of other ranks nothing will be known in the steps to come.
-void Stage::take_near(std::vector<std::uint8_t> of_all) {
-  work.near.bits = std::move(of_all);
-  work.near.crack_known = true;
-  const StateShares& shares = work.shared->shares();
-  const Range own = shares.own(shares.batch_begin());
-  const auto bits = work.near.bits.begin();
-  std::fill(bits, bits + own.begin, NearStrength::may_crack);
-  std::fill(bits + own.end, work.near.bits.end(), NearStrength::may_crack);
 }
 
 BegunCracks Stage::begun_cracks() {
@@ -178,9 +146,7 @@ bool Stage::renew_interfaces() {
   synchronise_contacts(context_.log);
   see_whole();
   BondWork before = std::move(work.bond);
-  work.shared->shares().gather_points(before.spring_force);
-  work.shared->shares().gather_points(before.stretch);
-  work.shared->shares().gather_points(before.viscous);
+  shares_.gather(before);
   for (const int i : slid_)
     state.spent.friction += catch_up(model, state, before, model.interfaces[i]);
   const RenewedInterfaces renewed =
@@ -199,11 +165,11 @@ bool Stage::renew_interfaces() {
     }
   if (scale_masses)
     scale_masses();
-  gave_back_ = false;
-  share();
+  shares_.resolved();
+  shares_.share(moving());
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact, true);
-  times_.end(StepLine::bonds);
+  progress_.times.end(StepLine::bonds);
   return true;
 }
 

@@ -1,23 +1,28 @@
 // Where a stage can be left, and how it goes on from there (step/restart_point.hpp).
+#include "libcdem/results/earlier_log.hpp"
 #include "libcdem/step/stage.hpp"
 
-#include <chrono>
 #include <utility>
 
 namespace cdem {
 
 void Stage::keep_restart_point(std::vector<double> loop_state) {
-  if (can_be_left())
-    share_anew();
+  if (can_be_left() && shares_.is_uneven()) {
+    see_whole();
+    shares_.gather(work.bond);
+    if (carried)
+      work.shared->shares().gather_nodes(*carried);
+    shares_.share_anew(moving(), here());
+  }
   keep_last_good();
-  give_back();
+  shares_.give_back();
   if (!context_.restart_point)
     return;
   RestartPoint& point = **context_.restart_point;
   if (point.step == step && (step > 0 || begins_))
     return;
   point.step = step;
-  point.wall_time = wall_time();
+  point.wall_time = progress_.wall_time();
   note(point, std::move(loop_state));
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
@@ -49,29 +54,41 @@ void Stage::note(RestartPoint& point, std::vector<double> loop_state) const {
   StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
   StateShares::copy(work.bond.stretch, point.stretch, shares.points());
   StateShares::copy(work.bond.viscous, point.viscous, shares.points());
-  point.contact_step = work.contact.last_step;
+  point.contact_step = work.contact.motion.last_step;
   point.strain_step = work.strain_step;
-  point.near = work.near.crack_known ? near_of_all() : std::vector<std::uint8_t>();
+  point.near = work.near.crack_known ? near_of_all_ranks(work) : std::vector<std::uint8_t>();
   point.slid = slid_;
   point.flows = flow_patterns(work.resolved);
+}
+
+void Stage::keep_last_good() {
+  good_ = {work.strain_step, context_.log.breaks.size(), context_.log.one_way};
+  work.shared->keep(context_.state, context_.last_good);
+}
+
+void Stage::go_back() {
+  context_.state = context_.last_good;
+  see_whole();
+  work.strain_step = good_.strain_step;
+  cdem::go_back(context_.log, context_.state.step, good_.breaks, good_.one_way);
+  work.near.forget();
+  contacts_.start_anew(context_.model, work.contact, false);
 }
 
 void Stage::go_on_from(const RestartPoint& from) {
   if (context_.restart_point)
     *context_.restart_point = from;
   step = from.step;
-  broken_tension_before_ = from.broken_tension_before;
-  broken_shear_before_ = from.broken_shear_before;
-  start_ -= std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-      std::chrono::duration<double>(from.wall_time));
+  broken_.tension_before = from.broken_tension_before;
+  broken_.shear_before = from.broken_shear_before;
   if (!from.begun)
     return;
   begins_ = false;
   ContactUpdate::go_on(work.contact);
-  work.contact.last_step = from.contact_step;
+  work.contact.motion.last_step = from.contact_step;
   work.strain_step = from.strain_step;
   if (!from.near.empty())
-    take_near(from.near);
+    take_near_of_all(from.near, work);
   work.bond.spring_force = from.spring_force;
   work.bond.stretch = from.stretch;
   work.bond.viscous = from.viscous;

@@ -63,7 +63,7 @@ void Stage::begin_cracks() {
   if (!breaking || context_.model.mesh.sides.empty())
     return;
   begun_ = begun_cracks();
-  times_.end(StepLine::cracks);
+  progress_.times.end(StepLine::cracks);
 }
 
 // Each chunk of springs writes its own forces only.
@@ -73,7 +73,7 @@ void Stage::bond_forces() {
   for_chunks(work.part().point_chunks(), context_.threads,
              [&](std::int64_t c) { spring_forces(context_.model, context_.state, work.bond, c, breaking); });
   work.shared->share_springs(work.bond.spring_force, work.bond.acting_force);
-  times_.end(StepLine::bonds);
+  progress_.times.end(StepLine::bonds);
 }
 
 // The nodes that no other chunk touches are all of a block, the inner ones of a chunk of a mesh.
@@ -105,12 +105,12 @@ void Stage::element_forces(Procedure& by) {
   work.near.crack_known = breaking && work.watch;
   work.near.due_known = work.near.crack_known && work.strain_step > 0;
   work.shared->share_partial_forces(work.partial);
-  times_.end(StepLine::elements);
+  progress_.times.end(StepLine::elements);
 }
 
 // Adds the forces of all chunks on a node, in their order.
 void Stage::shared_node_forces(Procedure& by) {
-  if (!has_shared_nodes_)
+  if (!work.has_shared_nodes)
     return;
   const Model& model = context_.model;
   for_chunks(work.part().mesh_chunks(), context_.threads, [&](std::int64_t c) {
@@ -124,7 +124,7 @@ void Stage::shared_node_forces(Procedure& by) {
                       [&](Range nodes, const Node* force) { by.move(nodes, force, sums); });
     work.node_sums[stars_of(model) + c] = sums;
   });
-  times_.end(StepLine::shared_nodes);
+  progress_.times.end(StepLine::shared_nodes);
 }
 
 void Stage::rigid_bodies(Procedure& by) {
@@ -144,7 +144,7 @@ void Stage::rigid_bodies(Procedure& by) {
     work.shared->share_rigid(context_.state, work.rigid_angle);
     each(work.shared->placed_bodies(), [&](int body) { by.place_rigid(body); });
   }
-  times_.end(StepLine::rigid_bodies);
+  progress_.times.end(StepLine::rigid_bodies);
 }
 
 void Stage::sum_up() {
@@ -153,7 +153,7 @@ void Stage::sum_up() {
   report.sums = sums_of(work, tellers);
   share_sums(work, begun_, tellers);
   if (!work.shared->alone())
-    times_.end(StepLine::ranks);
+    progress_.times.end(StepLine::ranks);
 }
 
 } // namespace cdem

@@ -39,7 +39,8 @@ geom::Vec3 SupportForces::reaction(const Selection& on) const {
     const Block& block = model_.blocks[model_.rigid[rigid].block];
     for (int i = block.node_begin; i < block.node_end; ++i)
       sum -= vec(net_[i]);
-    sum -= work_.contact.on_rigid.empty() ? geom::Vec3(0, 0, 0) : work_.contact.on_rigid[rigid].force;
+    sum -= work_.contact.loads.on_rigid.empty() ? geom::Vec3(0, 0, 0)
+                                                : work_.contact.loads.on_rigid[rigid].force;
   }
   for (const HeldNode& h : work_.resolved.held) {
     if (!std::binary_search(nodes.begin(), nodes.end(), h.node) ||

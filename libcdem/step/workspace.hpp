@@ -26,6 +26,7 @@ struct Workspace {
   bool damped = false;                  // stiffness damping acts
   const StrengthWatch* watch = nullptr; // of cohesive bodies, where they may break; null: none
   NearStrength near;                    // written by mesh_forces
+  bool has_shared_nodes = false;        // some node is touched by several chunks
   bool hand_over_due =
       true; // broken faces that are gone go to contact in this step; a stage does so at times
   ContactWork contact;
@@ -36,10 +37,14 @@ struct Workspace {
 
   // The part of the model that this rank computes and tells the others.
   std::shared_ptr<SharedState> shared;
+  void share(std::shared_ptr<SharedState> part) {
+    shared = std::move(part);
+    contact.shared = shared.get();
+  }
   const Partition& part() const { return shared->part(); }
 
   ActingForces acting() const {
-    return {resolved, contact.force, contact.on_rigid, bond.force(), bond.idle.block};
+    return {resolved, contact.loads.force, contact.loads.on_rigid, bond.force(), bond.idle.block};
   }
 };
 

@@ -81,8 +81,8 @@ void contacts(const Settings& settings) {
           step_rate(lattice(size, settings.body_divisions, false), threads, settings.seconds);
       const auto active = static_cast<double>(state.contacts.size());
       std::printf("%8zu %9.0f %9zu %9.0f %7d | %9.3f %10.2f %7.2f %9.2f | %10.0f\n", model.blocks.size(), n,
-                  work.contact.candidates[Contact::spring].size() +
-                      work.contact.candidates[Contact::edge].size(),
+                  work.contact.rows[Contact::spring].candidates.size() +
+                      work.contact.rows[Contact::edge].candidates.size(),
                   active, threads, search, steps * active / 1e6, steps * n / 1e6, alone * n / 1e6, held / n);
       std::fflush(stdout);
     }

@@ -144,8 +144,8 @@ void piles(const Settings& settings) {
     contact_forces(model, state, work.contact, threads);
     std::printf("  %zu contacts, %zu near pairs, deepest %.2g of a tet's height; %.0f bytes a tet\n",
                 state.contacts.size(),
-                work.contact.candidates[Contact::spring].size() +
-                    work.contact.candidates[Contact::edge].size(),
+                work.contact.rows[Contact::spring].candidates.size() +
+                    work.contact.rows[Contact::edge].candidates.size(),
                 log.deepest_over_height, (resident_bytes() - before) / n);
   }
 }

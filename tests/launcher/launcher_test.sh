@@ -229,7 +229,7 @@ case $case_name in
     expect "but the developer's" grep -q '^apt-get install .* shellcheck$' "$CALLS"
     cdem setup lnit
     expect "unknown group" equal "$rc" 2
-    expect "names them" contains "$err" "build, convert, docs, lint, package, tsan"
+    expect "names them" contains "$err" "build, convert, docs, lint, package, clang"
     ;;
   two_first_calls_build_once)
     PATH=$bin "$checkout/cdem" info >"$work/out1" 2>&1 &

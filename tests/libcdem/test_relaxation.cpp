@@ -82,7 +82,7 @@ TEST_CASE("a contact stiffer than its node raises the mass for good, others chan
   const cdem::Model model = build({body("block", geom::grid({1, 1, 1}, {1, 1, 1}))});
   cdem::FictitiousMasses masses(model, {});
   const std::vector<double> first = masses.of_nodes(), rows = cdem::all_row_sums(model);
-  cdem::ContactWork contact;
+  cdem::ContactLoads contact;
   contact.stiffness.assign(rows.size(), 0.0);
   contact.touched = {{2, 0}, {5, 0}};
   contact.stiffness[2] = 0;

@@ -130,16 +130,16 @@ using Segment = std::array<double, 6>; // ends in order, m, to a micrometre
 std::vector<Segment> edges_of(System s) {
   cdem::ContactWork work;
   cdem::start_contact(s.model, work);
-  cdem::tell_of_bonds(s.model, s.state, work.told_due);
-  cdem::find_fragments(s.model, s.state, work);
-  cdem::find_semi_edges(s.model, s.state, work);
-  CHECK(std::is_sorted(work.edges.begin(), work.edges.end(),
+  cdem::tell_of_bonds(s.model, s.state, work.search.told_due);
+  cdem::find_fragments(s.model, s.state, work.movers, work.motion);
+  const std::vector<cdem::ContactEdge> edges = cdem::find_semi_edges(s.model, s.state, work.movers).all;
+  CHECK(std::is_sorted(edges.begin(), edges.end(),
                        [](const auto& a, const auto& b) { return a.id() < b.id(); }));
   const auto rounded = [](const Vec3& x) {
     return std::array<double, 3>{std::round(1e6 * x.x()), std::round(1e6 * x.y()), std::round(1e6 * x.z())};
   };
   std::vector<Segment> segments;
-  for (const cdem::ContactEdge& e : work.edges) {
+  for (const cdem::ContactEdge& e : edges) {
     auto from = rounded(place(s, e.nodes[0])), to = rounded(place(s, e.nodes[1]));
     if (to < from)
       std::swap(from, to);

@@ -29,13 +29,13 @@ double gap(const geom::Box& a, const geom::Box& b) {
 
 // m, of blocks whose pace is greater, a quarter of what parts their boxes from all others: their boxes with three skins
 // around them then meet none. 0 for the others, and for further ones when there are very many.
-std::vector<double> clearance_of_fast_bodies(const Model& model, const State& state, const ContactWork& work,
+std::vector<double> clearance_of_fast_bodies(const Model& model, const State& state, const Movers& movers,
                                              const std::vector<double>& paces, double pace) {
   const ContactSurface& s = model.surface;
   std::vector<double> clearance(model.blocks.size(), 0.0);
   std::vector<int> fast;
   for (int b = 0; b < static_cast<int>(clearance.size()); ++b)
-    if (paces[b] > pace && !work.broken[b])
+    if (paces[b] > pace && !movers.broken[b])
       fast.push_back(b);
   fast.resize(std::min(fast.size(), most_boxes_compared / clearance.size()));
   if (fast.empty())
@@ -55,8 +55,8 @@ std::vector<double> clearance_of_fast_bodies(const Model& model, const State& st
 }
 
 // m, height of a tet at the surface of its block.
-double usual(const ContactWork& work, const ContactTriangle& t) {
-  return work.shallow[t.block] / shallow_ratio;
+double usual(const SurfaceSizes& sizes, const ContactTriangle& t) {
+  return sizes.shallow[t.block] / shallow_ratio;
 }
 
 } // namespace
@@ -66,73 +66,80 @@ namespace {
 // pace: m in a step, per mover.
 void choose_skins_of_blocks(const Model& model, const State& state, const std::vector<double>& pace,
                             ContactWork& work) {
+  Searches& search = work.search;
+  MoverMotion& motion = work.motion;
   const auto blocks = static_cast<int>(model.blocks.size());
-  const double most = thickest_skin * work.usual_height;
+  const double most = thickest_skin * work.sizes.usual_height;
   bool too_thin = false;
   for (int b = 0; b < blocks; ++b)
-    too_thin = too_thin || (!work.broken[b] && work.travelled[b] > work.skin[b] && work.skin[b] < most);
-  if (work.searches > 0 && work.steps_since_search < early && too_thin)
-    work.skin_doublings = std::min(work.skin_doublings + 1, most_widenings);
-  else if (work.steps_since_search > late)
-    work.skin_doublings = std::max(work.skin_doublings - 1, 0);
-  const std::vector<double> alone = clearance_of_fast_bodies(model, state, work, pace, most / skin_steps);
+    too_thin =
+        too_thin || (!work.movers.broken[b] && motion.travelled[b] > motion.skin[b] && motion.skin[b] < most);
+  if (search.count > 0 && search.steps_since < early && too_thin)
+    search.skin_doublings = std::min(search.skin_doublings + 1, most_widenings);
+  else if (search.steps_since > late)
+    search.skin_doublings = std::max(search.skin_doublings - 1, 0);
+  const std::vector<double> alone =
+      clearance_of_fast_bodies(model, state, work.movers, pace, most / skin_steps);
   double fastest = 0;
   for (int b = 0; b < blocks; ++b)
     if (alone[b] <= most)
       fastest = std::max(fastest, pace[b]);
-  const double least = std::max(thinnest_skin * work.usual_height, pace_of_others * skin_steps * fastest) *
-                       static_cast<double>(1 << work.skin_doublings);
+  const double least =
+      std::max(thinnest_skin * work.sizes.usual_height, pace_of_others * skin_steps * fastest) *
+      static_cast<double>(1 << search.skin_doublings);
   for (int b = 0; b < blocks; ++b)
-    work.skin[b] = std::min(std::max(least, skin_steps * pace[b]), std::max(most, alone[b]));
+    motion.skin[b] = std::min(std::max(least, skin_steps * pace[b]), std::max(most, alone[b]));
 }
 
 } // namespace
 
 std::vector<double> choose_skins(const Model& model, const State& state, ContactWork& work,
                                  const Renewed& renewed) {
+  MoverMotion& motion = work.motion;
   std::vector<double> pace = speeds_of_movers(model, state, work, 1); // m/s, then m in a step
   for (double& of_mover : pace)
-    of_mover *= work.last_step;
+    of_mover *= motion.last_step;
   if (renewed.all)
     choose_skins_of_blocks(model, state, pace, work);
   const auto blocks = static_cast<int>(model.blocks.size());
   for (int b = 0; b < blocks; ++b)
-    if (work.broken[b])
-      work.skin[b] = 0; // the thickest_skin of its fragments
-  double mean = 0;      // m in a step, of fragments
+    if (work.movers.broken[b])
+      motion.skin[b] = 0; // the thickest_skin of its fragments
+  double mean = 0;        // m in a step, of fragments
   for (int m = blocks; m < work.movers.count(); ++m)
     mean += pace[m] / (work.movers.count() - blocks);
   for (int m = blocks; m < work.movers.count(); ++m) {
     if (renewed.movers[m])
-      work.skin[m] = std::clamp(steps_of_fragments * std::max(pace[m], mean),
-                                thinnest_skin * work.usual_height, thickest_skin * work.usual_height);
-    double& most = work.skin[work.movers.block[m]];
-    most = std::max(most, work.skin[m]);
+      motion.skin[m] =
+          std::clamp(steps_of_fragments * std::max(pace[m], mean), thinnest_skin * work.sizes.usual_height,
+                     thickest_skin * work.sizes.usual_height);
+    double& most = motion.skin[work.movers.block[m]];
+    most = std::max(most, motion.skin[m]);
   }
   return pace;
 }
 
-double depth_of(const ContactWork& work, const ContactTriangle& t) {
-  return depth_ratio * std::min(t.height, usual(work, t));
+double depth_of(const SurfaceSizes& sizes, const ContactTriangle& t) {
+  return depth_ratio * std::min(t.height, usual(sizes, t));
 }
 
-double far_at_first(const ContactWork& work, const ContactTriangle& t) {
-  return depth_of(work, t) + thickest_skin * usual(work, t);
+double far_at_first(const SurfaceSizes& sizes, const ContactTriangle& t) {
+  return depth_of(sizes, t) + thickest_skin * usual(sizes, t);
 }
 
 SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work,
                            const Renewed& renewed)
-    : surface_(model.surface), work_(work), whole_(work.broken), deepest_(model.blocks.size(), 0.0),
-      at_least_(model.blocks.size()), allowed_(work.skin) {
+    : surface_(model.surface), work_(work), whole_(work.movers.broken), deepest_(model.blocks.size(), 0.0),
+      at_least_(model.blocks.size()), allowed_(work.motion.skin) {
   // A fragment stays within its skin around where it was searched, and may go back all the way through that place.
   for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m)
     if (!renewed.movers[m])
-      allowed_[m] += gone_at_most(model, work, m);
+      allowed_[m] += gone_at_most(model, work.motion, m);
   for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m) {
     double& most = allowed_[work.movers.block[m]]; // of a block the most of its fragments
     most = std::max(most, allowed_[m]);
   }
-  if (!work.history_complete)
+  if (!work.search.history_complete)
     std::fill(whole_.begin(), whole_.end(), 1);
   for (const Contact& c : state.contacts) {
     if (c.kind == Contact::tets) // found by lists of their own
@@ -142,7 +149,7 @@ SearchMargin::SearchMargin(const Model& model, const State& state, const Contact
     deepest_[b] = std::max(deepest_[b], c.depth);
   }
   for (std::size_t b = 0; b < at_least_.size(); ++b)
-    at_least_[b] = std::max({deepest_[b], 0.5 * edge_depth(work, static_cast<int>(b)),
+    at_least_[b] = std::max({deepest_[b], 0.5 * edge_depth(work.sizes, static_cast<int>(b)),
                              0.5 * meeting_ratio * model.blocks[b].size});
 }
 
@@ -151,7 +158,7 @@ bool ActiveSurface::finite() const {
                      [](const geom::Box& box) { return box.min.allFinite() && box.max.allFinite(); });
 }
 
-ActiveSurface active_surface(const Model& model, const State& state, const ContactWork& work,
+ActiveSurface active_surface(const Model& model, const State& state, const Movers& movers,
                              const SearchMargin& margins, const Renewed& renewed, int threads) {
   const ContactSurface& s = model.surface;
   ActiveSurface part;
@@ -159,7 +166,7 @@ ActiveSurface active_surface(const Model& model, const State& state, const Conta
   part.place.assign(s.triangles.size(), -1);
   for (std::size_t b = 0; b + 1 < s.block_begin.size(); ++b) {
     for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t)
-      if (work.active[t]) {
+      if (movers.active[t]) {
         part.place[t] = static_cast<int>(part.triangles.size());
         part.triangles.push_back(t);
       }
@@ -168,9 +175,9 @@ ActiveSurface active_surface(const Model& model, const State& state, const Conta
   part.facets.resize(part.triangles.size());
   part.boxes.resize(part.triangles.size());
   for (const int t : part.triangles) {
-    const int mover = work.movers.of_triangle[t];
+    const int mover = movers.of_triangle[t];
     part.source_searched.push_back(
-        static_cast<char>(renewed.movers[mover] || work.changed[t] == Change::surface));
+        static_cast<char>(renewed.movers[mover] || movers.changed[t] == Change::surface));
     part.target_searched.push_back(static_cast<char>(renewed.movers[mover] || renewed.surfaced[mover]));
   }
   part.block_boxes.resize(part.block_begin.size() - 1);

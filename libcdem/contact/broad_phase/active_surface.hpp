@@ -10,7 +10,7 @@ namespace cdem {
 
 struct Renewed; // broad_phase/renewed.hpp
 
-// Writes ContactWork::skin: thin for what hardly moves, so that little is near; thick for what flies by itself. Movers are
+// Writes MoverMotion::skin: thin for what hardly moves, so that little is near; thick for what flies by itself. Movers are
 // known; those that are searched. Returns how far each mover moves in a step, m.
 std::vector<double> choose_skins(const Model&, const State&, ContactWork&, const Renewed&);
 
@@ -33,10 +33,10 @@ private:
 };
 
 // m: a quarter of the tet's height, of those much higher than usual in their block a quarter of the usual.
-double depth_of(const ContactWork&, const ContactTriangle&);
+double depth_of(const SurfaceSizes&, const ContactTriangle&);
 
 // m, around triangles that belong together: those that were further from each other than both at first may meet.
-double far_at_first(const ContactWork&, const ContactTriangle&);
+double far_at_first(const SurfaceSizes&, const ContactTriangle&);
 
 // Largest depth of a contact between two blocks for which the search allows, m.
 class SearchMargin {
@@ -47,7 +47,7 @@ public:
   const std::vector<double>& allowed() const { return allowed_; }
 
   double operator()(const ContactTriangle& t) const {
-    return std::max(whole_[t.block] ? depth_of(work_, t) : 0, at_least_[t.block]);
+    return std::max(whole_[t.block] ? depth_of(work_.sizes, t) : 0, at_least_[t.block]);
   }
   // m, no contact of the two blocks is deeper, of those known.
   double known(int block_a, int block_b) const { return std::min(deepest_[block_a], deepest_[block_b]); }
@@ -84,7 +84,7 @@ struct ActiveSurface {
 
   bool finite() const;
 };
-ActiveSurface active_surface(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                             const Renewed&, int threads);
+ActiveSurface active_surface(const Model&, const State&, const Movers&, const SearchMargin&, const Renewed&,
+                             int threads);
 
 } // namespace cdem

@@ -15,10 +15,10 @@ inline constexpr double meeting_ratio = 1e-3;
 
 // m, largest depth at which a contact of two edges may begin, for one of the two blocks: deeper edges have slid past
 // each other's ends.
-inline double edge_depth(const ContactWork& work, int block) {
-  return 5 * work.shallow[block];
+inline double edge_depth(const SurfaceSizes& sizes, int block) {
+  return 5 * sizes.shallow[block];
 }
-double edge_depth(const ContactWork&, const ContactTriangle& source, const ContactTriangle& target);
+double edge_depth(const SurfaceSizes&, const ContactTriangle& source, const ContactTriangle& target);
 
 struct Near {
   int source = 0;

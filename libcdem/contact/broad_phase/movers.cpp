@@ -2,18 +2,18 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/broad_phase/renewed.hpp"
-#include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/ranks/shared_state.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cdem {
 namespace {
 
-// As ContactWork::active, of a triangle of this face.
+// As Movers::active, of a triangle of this face.
 char activity(const State& state, int face) {
   if (face < 0)
     return 1;
@@ -24,9 +24,8 @@ char activity(const State& state, int face) {
 }
 
 // Numbers the movers by the first of their triangles, and gives every triangle its own.
-void number_movers(const Model& model, ContactWork& work) {
+void number_movers(const Model& model, Movers& movers) {
   const ContactSurface& s = model.surface;
-  Movers& movers = work.movers;
   movers.block.resize(model.blocks.size());
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     movers.block[b] = static_cast<int>(b);
@@ -37,25 +36,24 @@ void number_movers(const Model& model, ContactWork& work) {
     const int block = s.triangles[t].block;
     int& mover = movers.of_triangle[t];
     mover = block;
-    if (!work.broken[block])
+    if (!movers.broken[block])
       continue;
-    int& known = of_fragment[work.fragment[t]];
+    int& known = of_fragment[movers.fragment_of_triangle[t]];
     if (known < 0) {
       known = movers.count();
       movers.block.push_back(block);
-      movers.fragment.push_back(work.fragment[t]);
+      movers.fragment.push_back(movers.fragment_of_triangle[t]);
     }
     mover = known;
   }
 }
 
-void find_nodes(const Model& model, ContactWork& work) {
+void find_nodes(const Model& model, Movers& movers) {
   const ContactSurface& s = model.surface;
-  Movers& movers = work.movers;
   const auto blocks = static_cast<int>(model.blocks.size());
   std::vector<int> of_node(model.node_position.size(), -1);
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
-    if (work.active[t] && movers.of_triangle[t] >= blocks)
+    if (movers.active[t] && movers.of_triangle[t] >= blocks)
       for (const int node : s.triangles[t].nodes)
         of_node[node] = movers.of_triangle[t] - blocks;
   movers.node_begin.assign(static_cast<std::size_t>(movers.count() - blocks) + 1, 0);
@@ -72,27 +70,28 @@ void find_nodes(const Model& model, ContactWork& work) {
 }
 
 // A fragment is one piece when no bond is inside it.
-void find_pieces(const Model& model, ContactWork& work) {
+void find_pieces(const Model& model, Movers& movers) {
   const ContactSurface& s = model.surface;
-  work.movers.one_piece.assign(work.movers.count(), 1);
-  std::fill_n(work.movers.one_piece.begin(), model.blocks.size(), 0);
+  movers.one_piece.assign(movers.count(), 1);
+  std::fill_n(movers.one_piece.begin(), model.blocks.size(), 0);
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
-    if (s.triangles[t].face >= 0 && work.fragment[t] == work.fragment[s.triangles[t].mate])
-      work.movers.one_piece[work.movers.of_triangle[t]] = 0;
+    if (s.triangles[t].face >= 0 &&
+        movers.fragment_of_triangle[t] == movers.fragment_of_triangle[s.triangles[t].mate])
+      movers.one_piece[movers.of_triangle[t]] = 0;
 }
 
 // Such a fragment is convex, and its four triangles are its surface.
-void find_single_tets(const Model& model, ContactWork& work) {
+void find_single_tets(const Model& model, Movers& movers) {
   const ContactSurface& s = model.surface;
-  Movers& movers = work.movers;
   constexpr std::array<int, 4> none{-1, -1, -1, -1};
   movers.triangles_of_tet.assign(movers.count(), none);
   std::vector<int> tets(model.node_position.size(), 0); // per fragment
   for (const geom::Tet& tet : model.tets)
-    ++tets[work.fragment_of_node[tet[0]]];
+    ++tets[movers.fragment_of_node[tet[0]]];
   for (int t = 0; t < static_cast<int>(s.triangles.size()); ++t) {
     const int mover = movers.of_triangle[t];
-    if (mover < static_cast<int>(model.blocks.size()) || !work.active[t] || tets[work.fragment[t]] != 1)
+    if (mover < static_cast<int>(model.blocks.size()) || !movers.active[t] ||
+        tets[movers.fragment_of_triangle[t]] != 1)
       continue;
     std::array<int, 4>& triangles = movers.triangles_of_tet[mover];
     *std::find(triangles.begin(), triangles.end(), -1) = t;
@@ -102,39 +101,40 @@ void find_single_tets(const Model& model, ContactWork& work) {
       triangles = none;
 }
 
-// Writes ContactWork::changed.
-void find_changed(const Model& model, const ContactWork& before, ContactWork& work) {
-  work.changed.assign(work.fragment.size(), Change::none);
-  if (before.fragment.empty())
+// Writes Movers::changed.
+void find_changed(const Model& model, const Movers& before, Movers& movers) {
+  movers.changed.assign(movers.fragment_of_triangle.size(), Change::none);
+  if (before.fragment_of_triangle.empty())
     return;
-  for (std::size_t t = 0; t < work.fragment.size(); ++t) {
-    if (!work.broken[model.surface.triangles[t].block])
+  for (std::size_t t = 0; t < movers.fragment_of_triangle.size(); ++t) {
+    if (!movers.broken[model.surface.triangles[t].block])
       continue;
-    if (before.fragment[t] != work.fragment[t] || before.active[t] != work.active[t])
-      work.changed[t] = Change::fragment;
-    if (!before.active[t] && work.active[t])
-      work.changed[t] = Change::surface;
+    if (before.fragment_of_triangle[t] != movers.fragment_of_triangle[t] ||
+        before.active[t] != movers.active[t])
+      movers.changed[t] = Change::fragment;
+    if (!before.active[t] && movers.active[t])
+      movers.changed[t] = Change::surface;
   }
 }
 
 // Per mover, its number before; -1: it is a new one. A fragment is the same as long as its smallest node is, though pieces
 // have fallen off it. One that is a single piece has nothing that is further away.
-std::vector<int> numbers_before(const Model& model, const ContactWork& before, const ContactWork& work) {
-  std::vector<int> old(work.movers.count(), -1);
-  if (before.fragment.empty())
+std::vector<int> numbers_before(const Model& model, const Movers& before, const Movers& movers) {
+  std::vector<int> old(movers.count(), -1);
+  if (before.fragment_of_triangle.empty())
     return old;
   const auto blocks = static_cast<int>(model.blocks.size());
   std::vector<char> any_changed(old.size(), 0);
-  for (std::size_t t = 0; t < work.fragment.size(); ++t) {
-    const int mover = work.movers.of_triangle[t];
-    old[mover] = before.movers.of_triangle[t];
-    any_changed[mover] = static_cast<char>(any_changed[mover] || work.changed[t] != Change::none);
+  for (std::size_t t = 0; t < movers.fragment_of_triangle.size(); ++t) {
+    const int mover = movers.of_triangle[t];
+    old[mover] = before.of_triangle[t];
+    any_changed[mover] = static_cast<char>(any_changed[mover] || movers.changed[t] != Change::none);
   }
-  const Movers &now = work.movers, &then = before.movers;
-  for (int m = blocks; m < now.count(); ++m) {
+  for (int m = blocks; m < movers.count(); ++m) {
     const int k = old[m];
-    if (k < blocks || then.fragment[k] != now.fragment[m] || then.one_piece[k] != now.one_piece[m] ||
-        then.triangles_of_tet[k] != now.triangles_of_tet[m] || (now.one_piece[m] && any_changed[m]))
+    if (k < blocks || before.fragment[k] != movers.fragment[m] ||
+        before.one_piece[k] != movers.one_piece[m] ||
+        before.triangles_of_tet[k] != movers.triangles_of_tet[m] || (movers.one_piece[m] && any_changed[m]))
       old[m] = -1;
   }
   return old;
@@ -142,69 +142,50 @@ std::vector<int> numbers_before(const Model& model, const ContactWork& before, c
 
 // New surface of fragments that go on: its nodes are where they would be had they moved as the fragment did.
 void begin_new_nodes(const State& state, const Movers& before, const std::vector<int>& old,
-                     ContactWork& work) {
+                     const Movers& movers, MoverMotion& motion) {
   std::vector<char> known(state.displacement.size(), 0);
   for (const int node : before.nodes)
     known[node] = 1;
-  const int blocks = work.movers.count() - static_cast<int>(work.movers.node_begin.size()) + 1;
-  for (int m = blocks; m < work.movers.count(); ++m)
-    for (int i = work.movers.node_begin[m - blocks];
-         old[m] >= 0 && i < work.movers.node_begin[m - blocks + 1]; ++i)
-      if (const int node = work.movers.nodes[i]; !known[node])
-        work.at_search[node] = vec(state.displacement[node]) - work.drift[m];
-}
-
-// What was known of the movers before they were told apart anew goes on for those that are the same.
-void carry_over(const Model& model, const State& state, ContactWork& before, ContactWork& work) {
-  find_changed(model, before, work);
-  const std::vector<int> old = numbers_before(model, before, work);
-  const auto carry = [&](auto ContactWork::*field) {
-    auto& now = work.*field;
-    auto& then = before.*field;
-    now.clear();
-    now.resize(work.movers.count());
-    for (int m = 0; m < work.movers.count(); ++m)
-      if (old[m] >= 0 && old[m] < static_cast<int>(then.size()))
-        now[m] = std::move(then[old[m]]);
-  };
-  carry(&ContactWork::travelled);
-  carry(&ContactWork::skin);
-  carry(&ContactWork::swing);
-  work.drift.assign(work.movers.count(), geom::Vec3::Zero());
-  for (int m = 0; m < work.movers.count(); ++m)
-    if (old[m] >= 0 && old[m] < static_cast<int>(before.drift.size()))
-      work.drift[m] = before.drift[old[m]];
-  begin_new_nodes(state, before.movers, old, work);
+  const int blocks = movers.count() - static_cast<int>(movers.node_begin.size()) + 1;
+  for (int m = blocks; m < movers.count(); ++m)
+    for (int i = movers.node_begin[m - blocks]; old[m] >= 0 && i < movers.node_begin[m - blocks + 1]; ++i)
+      if (const int node = movers.nodes[i]; !known[node])
+        motion.at_search[node] = vec(state.displacement[node]) - motion.drift[m];
 }
 
 } // namespace
 
-void find_fragments(const Model& model, const State& state, ContactWork& work) {
+void find_fragments(const Model& model, const State& state, Movers& movers, MoverMotion& motion) {
   const ContactSurface& s = model.surface;
-  ContactWork before; // of the movers alone
-  std::swap(before.fragment, work.fragment);
-  std::swap(before.active, work.active);
-  std::swap(before.movers, work.movers);
-  std::swap(before.travelled, work.travelled);
-  std::swap(before.skin, work.skin);
-  std::swap(before.swing, work.swing);
-  std::swap(before.drift, work.drift);
-  work.fragment_of_node = fragments_of_nodes(model, state, Joins::told);
-  work.fragment.resize(s.triangles.size());
-  work.active.resize(s.triangles.size());
-  work.broken.assign(model.blocks.size(), 0);
+  const Movers before = std::exchange(movers, {});
+  movers.fragment_of_node = fragments_of_nodes(model, state, Joins::told);
+  movers.fragment_of_triangle.resize(s.triangles.size());
+  movers.active.resize(s.triangles.size());
+  movers.broken.assign(model.blocks.size(), 0);
   for (std::size_t t = 0; t < s.triangles.size(); ++t) {
-    work.fragment[t] = work.fragment_of_node[s.triangles[t].nodes[0]];
-    work.active[t] = activity(state, s.triangles[t].face);
-    if (s.triangles[t].face >= 0 && work.active[t])
-      work.broken[s.triangles[t].block] = 1;
+    movers.fragment_of_triangle[t] = movers.fragment_of_node[s.triangles[t].nodes[0]];
+    movers.active[t] = activity(state, s.triangles[t].face);
+    if (s.triangles[t].face >= 0 && movers.active[t])
+      movers.broken[s.triangles[t].block] = 1;
   }
-  number_movers(model, work);
-  find_nodes(model, work);
-  find_pieces(model, work);
-  find_single_tets(model, work);
-  find_tets_beyond(model, work);
-  carry_over(model, state, before, work);
+  number_movers(model, movers);
+  find_nodes(model, movers);
+  find_pieces(model, movers);
+  find_single_tets(model, movers);
+  find_changed(model, before, movers);
+  const std::vector<int> old = numbers_before(model, before, movers);
+  const auto carry = [&](auto& of_movers, const auto& of_new) {
+    std::vector now(old.size(), of_new);
+    for (std::size_t m = 0; m < old.size(); ++m)
+      if (old[m] >= 0 && old[m] < static_cast<int>(of_movers.size()))
+        now[m] = of_movers[old[m]];
+    of_movers = std::move(now);
+  };
+  carry(motion.travelled, 0.0);
+  carry(motion.skin, 0.0);
+  carry(motion.swing, 0.0);
+  carry(motion.drift, geom::Vec3(0, 0, 0));
+  begin_new_nodes(state, before, old, movers, motion);
 }
 
 std::vector<double> speeds_of_movers(const Model& model, const State& state, const ContactWork& work,
@@ -212,8 +193,7 @@ std::vector<double> speeds_of_movers(const Model& model, const State& state, con
   const Movers& movers = work.movers;
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
   std::vector<double> speeds(movers.count(), 0.0);
-  const Range own = work.shared ? work.shared->part().nodes()
-                                : Range{0, static_cast<std::int64_t>(model.node_position.size())};
+  const Range own = work.shared->part().nodes();
   for_chunks(movers.count(), threads, [&](std::int64_t m) {
     double speed2 = 0;
     if (m < blocks) {
@@ -232,20 +212,20 @@ std::vector<double> speeds_of_movers(const Model& model, const State& state, con
     }
     speeds[m] = std::sqrt(speed2);
   });
-  if (work.shared)
+  if (!work.shared->alone())
     ranks().largest(speeds.data(), speeds.size());
   return speeds;
 }
 
 void set_displacements(const Model& model, const State& state, ContactWork& work, int threads) {
-  work.last_displacement = speeds_of_movers(model, state, work, threads);
-  for (double& way : work.last_displacement)
+  work.motion.last_displacement = speeds_of_movers(model, state, work, threads);
+  for (double& way : work.motion.last_displacement)
     way *= work.step;
 }
 
 namespace {
 
-// With several ranks, the one that follows a fragment. fragment: from the first mover after the blocks on.
+// The rank that follows a fragment. fragment: from the first mover after the blocks on.
 int rank_of_fragment(const ContactWork& work, std::int64_t fragment) {
   const Movers& movers = work.movers;
   const int begin = movers.node_begin[fragment];
@@ -259,15 +239,15 @@ void share_drifts(std::int64_t blocks, ContactWork& work) {
   Pack own;
   for (std::int64_t f = 0; f < fragments; ++f)
     if (rank_of_fragment(work, f) == work.shared->part().rank) {
-      own(work.drift[blocks + f]);
-      own(work.swing[blocks + f]);
+      own(work.motion.drift[blocks + f]);
+      own(work.motion.swing[blocks + f]);
     }
   const std::vector<std::string> told = ranks().gather(own.text(), Ranks::Subject::drifts);
   std::vector<Unpack> of_rank(told.begin(), told.end());
   for (std::int64_t f = 0; f < fragments; ++f) {
     Unpack& unpack = of_rank[rank_of_fragment(work, f)];
-    unpack(work.drift[blocks + f]);
-    unpack(work.swing[blocks + f]);
+    unpack(work.motion.drift[blocks + f]);
+    unpack(work.motion.swing[blocks + f]);
   }
 }
 
@@ -275,15 +255,16 @@ void share_drifts(std::int64_t blocks, ContactWork& work) {
 
 void set_drifts(const Model& model, const State& state, ContactWork& work, int threads) {
   const Movers& movers = work.movers;
+  MoverMotion& motion = work.motion;
   const auto blocks = static_cast<std::int64_t>(model.blocks.size());
-  work.drift.resize(movers.count(), geom::Vec3::Zero());
-  work.swing.resize(movers.count());
+  motion.drift.resize(movers.count(), geom::Vec3::Zero());
+  motion.swing.resize(movers.count());
   for_chunks(movers.count() - blocks, threads, [&](std::int64_t fragment) {
-    if (work.shared && rank_of_fragment(work, fragment) != work.shared->part().rank)
+    if (rank_of_fragment(work, fragment) != work.shared->part().rank)
       return;
     const int begin = movers.node_begin[fragment], end = movers.node_begin[fragment + 1];
     const auto gone = [&](int i) -> geom::Vec3 {
-      return vec(state.displacement[movers.nodes[i]]) - work.at_search[movers.nodes[i]];
+      return vec(state.displacement[movers.nodes[i]]) - motion.at_search[movers.nodes[i]];
     };
     geom::Vec3 mean = geom::Vec3::Zero();
     for (int i = begin; i < end; ++i)
@@ -292,30 +273,31 @@ void set_drifts(const Model& model, const State& state, ContactWork& work, int t
     double swing2 = 0;
     for (int i = begin; i < end; ++i)
       swing2 = std::max(swing2, (gone(i) - mean).squaredNorm());
-    work.drift[blocks + fragment] = mean;
-    work.swing[blocks + fragment] = std::sqrt(swing2);
+    motion.drift[blocks + fragment] = mean;
+    motion.swing[blocks + fragment] = std::sqrt(swing2);
   });
-  if (work.shared)
+  if (!work.shared->alone())
     share_drifts(blocks, work);
 }
 
-void begin_drifts(const Model& model, const State& state, const Renewed& renewed, ContactWork& work) {
-  const Movers& movers = work.movers;
+void begin_drifts(const Model& model, const State& state, const Movers& movers, const Renewed& renewed,
+                  MoverMotion& motion) {
   const auto blocks = static_cast<int>(model.blocks.size());
   if (movers.count() > blocks)
-    work.at_search.resize(model.node_position.size(), geom::Vec3::Zero());
+    motion.at_search.resize(model.node_position.size(), geom::Vec3::Zero());
   for (int m = blocks; m < movers.count(); ++m) {
     if (!renewed.movers[m])
       continue;
     for (int i = movers.node_begin[m - blocks]; i < movers.node_begin[m - blocks + 1]; ++i)
-      work.at_search[movers.nodes[i]] = vec(state.displacement[movers.nodes[i]]);
+      motion.at_search[movers.nodes[i]] = vec(state.displacement[movers.nodes[i]]);
   }
 }
 
-double gone_since(const ContactWork& work, int a, int b, const std::array<float, 3>& drifts, float swings) {
+double gone_since(const MoverMotion& motion, int a, int b, const std::array<float, 3>& drifts, float swings) {
   constexpr double rounding = 1e-6; // of lengths kept as floats
-  const geom::Vec3 then(drifts[0], drifts[1], drifts[2]), now = work.drift[b] - work.drift[a];
-  return (now - then).norm() + work.swing[a] + work.swing[b] + swings + rounding * (now.norm() + then.norm());
+  const geom::Vec3 then(drifts[0], drifts[1], drifts[2]), now = motion.drift[b] - motion.drift[a];
+  return (now - then).norm() + motion.swing[a] + motion.swing[b] + swings +
+         rounding * (now.norm() + then.norm());
 }
 
 } // namespace cdem

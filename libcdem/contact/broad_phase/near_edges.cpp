@@ -75,9 +75,9 @@ public:
 
   // Those of one triangle of which the boxes meet the region, by number.
   void add(int triangle, const geom::Box& region) {
-    for (int e = work_.edge_begin[triangle]; e < work_.edge_begin[triangle + 1]; ++e) {
+    for (int e = work_.edges.begin[triangle]; e < work_.edges.begin[triangle + 1]; ++e) {
       geom::Box box;
-      for (const int node : work_.edges[e].nodes)
+      for (const int node : work_.edges.all[e].nodes)
         box.extend(place_of(model_, state_, node));
       if (apart(box, region))
         continue;
@@ -88,10 +88,10 @@ public:
   }
   const std::vector<int>& edges() const { return edges_; }
   const std::vector<geom::Box>& boxes() const { return boxes_; }
-  int triangle(std::size_t k) const { return work_.edges[edges_[k]].triangles[0]; }
+  int triangle(std::size_t k) const { return work_.edges.all[edges_[k]].triangles[0]; }
   const Bar& operator[](std::size_t k) {
     if (!bars_[k])
-      bars_[k] = bar_of(model_, state_, work_, skins_, work_.edges[edges_[k]]);
+      bars_[k] = bar_of(model_, state_, work_, skins_, work_.edges.all[edges_[k]]);
     return *bars_[k];
   }
   double skin(std::size_t k) const { return skins_.of(work_.movers.of_triangle[triangle(k)]); }
@@ -111,7 +111,7 @@ void add_near(const Model& model, const ContactWork& work, const SearchMargin& m
               std::size_t k, Bars& other, std::size_t l, std::vector<Near>& out) {
   const ContactTriangle &a = model.surface.triangles[one.triangle(k)],
                         &b = model.surface.triangles[other.triangle(l)];
-  const double depth = std::max(edge_depth(work, a, b), margins.known(a.block, b.block));
+  const double depth = std::max(edge_depth(work.sizes, a, b), margins.known(a.block, b.block));
   if (apart(grown(one.boxes()[k], depth + one.skin(k) + other.skin(l)), other.boxes()[l]) ||
       !may_touch(one[k], other[l], depth))
     return;
@@ -125,17 +125,18 @@ void add_near(const Model& model, const ContactWork& work, const SearchMargin& m
 
 } // namespace
 
-double edge_depth(const ContactWork& work, const ContactTriangle& source, const ContactTriangle& target) {
+double edge_depth(const SurfaceSizes& sizes, const ContactTriangle& source, const ContactTriangle& target) {
   return std::min(
-      {edge_depth(work, source.block), edge_depth(work, target.block), depth_limit(work, source, target)});
+      {edge_depth(sizes, source.block), edge_depth(sizes, target.block), depth_limit(sizes, source, target)});
 }
 
 std::vector<Near> near_edges(const Model& model, const State& state, const ContactWork& work,
                              const SearchMargin& margins, const ActiveSurface& active, const SharedPart& part,
                              const Skins& skins) {
   // No two edges that touch are further apart than this; their triangles meet then.
-  const double depth = std::max(std::min(edge_depth(work, part.block_a), edge_depth(work, part.block_b)),
-                                margins.known(part.block_a, part.block_b));
+  const double depth =
+      std::max(std::min(edge_depth(work.sizes, part.block_a), edge_depth(work.sizes, part.block_b)),
+               margins.known(part.block_a, part.block_b));
   const double reach = depth + skins.between(part.block_a, part.block_b);
   Bars one(model, state, work, skins), other(model, state, work, skins);
   for (const int i : part.of_a)
@@ -171,7 +172,7 @@ std::vector<Near> near_edges_within(const Model& model, const State& state, cons
                                       bars.edges().begin());
     };
     const int t = active.triangles[place];
-    return std::pair(at(work.edge_begin[t]), at(work.edge_begin[t + 1]));
+    return std::pair(at(work.edges.begin[t]), at(work.edges.begin[t + 1]));
   };
   std::vector<Near> out;
   for (const auto& [i, j] : meeting) {

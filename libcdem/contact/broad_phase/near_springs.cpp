@@ -38,7 +38,7 @@ public:
       margin_of_targets = std::max(margin_of_targets, margins_(to));
       one_place_of_targets = std::max(one_place_of_targets, one_place(to));
     }
-    const double deepest = std::min(2 * depth_of(work_, from), margins_(from) + margin_of_targets);
+    const double deepest = std::min(2 * depth_of(work_.sizes, from), margins_(from) + margin_of_targets);
     find_nearest(pairs, begin, end, skins,
                  (1 + 8 * same_place) * (deepest + 3 * skins) + 8 * one_place_of_targets);
     std::array<double, 3> need{};
@@ -49,7 +49,7 @@ public:
         continue;
       const ContactTriangle& to = triangle(found.target);
       const double d = std::sqrt(found.distance2);
-      const double deep = std::min(2 * depth_limit(work_, from, to), margins_(from) + margins_(to));
+      const double deep = std::min(2 * depth_limit(work_.sizes, from, to), margins_(from) + margins_(to));
       if (d <= (found.inside() ? deep + skins : skins))
         need[corner] = d + 2 * skins;
       for (const HoldingTet& tet : holding_[corner])
@@ -110,7 +110,7 @@ private:
           may_get_into(model_, work_, active_, spring[corner], triangle(pairs[begin].first).block,
                        triangle(pairs[begin].second).block, skins_);
     }
-    const bool of_tets = of_several_tets(model_, work_, mover(pairs[begin].second));
+    const bool of_tets = of_several_tets(model_, work_.movers, mover(pairs[begin].second));
     std::array<NearestOfTets, 3> of_surface;
     nearest_ = {};
     distance_.clear();
@@ -189,7 +189,7 @@ std::vector<Near> near_springs(const Model& model, const State& state, const Con
                                const SearchMargin& margins, const ActiveSurface& active, Pairs& pairs,
                                const Skins& skins) {
   const auto fragment = [&](const std::pair<int, int>& p) {
-    return work.fragment[active.triangles[p.second]];
+    return work.movers.fragment_of_triangle[active.triangles[p.second]];
   };
   sort_by_source(pairs, fragment);
   std::vector<Near> out;

@@ -119,7 +119,7 @@ bool may_get_into(const Model& model, const ContactWork& work, const ActiveSurfa
   if (!skins.of_pair())
     return true;
   const double far = both + slack_of(model, work, block);
-  for (const int t : work.planes[block]) {
+  for (const int t : work.rigid_pairs.planes[block]) {
     const Facet& plane = active.facets[active.place[t]];
     if ((x - plane.x[0]).dot(plane.normal) > far)
       return false;
@@ -129,16 +129,16 @@ bool may_get_into(const Model& model, const ContactWork& work, const ActiveSurfa
 
 namespace {
 
-geom::Box box_at_first(const Model& model, const ContactWork& work, int t) {
+geom::Box box_at_first(const Model& model, const SurfaceSizes& sizes, int t) {
   const ContactTriangle& triangle = model.surface.triangles[t];
   const geom::Triangle& n = triangle.nodes;
   return box_of({model.node_position[n[0]], model.node_position[n[1]], model.node_position[n[2]]},
-                far_at_first(work, triangle));
+                far_at_first(sizes, triangle));
 }
 
 // Whether two triangles of what hangs together were so far from each other at first that they may meet.
-bool apart_at_first(const Model& model, const ContactWork& work, int triangle_a, int triangle_b) {
-  return apart(box_at_first(model, work, triangle_a), box_at_first(model, work, triangle_b));
+bool apart_at_first(const Model& model, const SurfaceSizes& sizes, int triangle_a, int triangle_b) {
+  return apart(box_at_first(model, sizes, triangle_a), box_at_first(model, sizes, triangle_b));
 }
 
 } // namespace
@@ -150,7 +150,8 @@ NearWithin near_within(const Model& model, const ContactWork& work, const Search
                                active.boxes.begin() + active.block_begin[block + 1]);
   const auto strangers = [&](int i, int j) {
     const int a = active.triangles[i], b = active.triangles[j];
-    return work.fragment[a] != work.fragment[b] || apart_at_first(model, work, a, b);
+    return work.movers.fragment_of_triangle[a] != work.movers.fragment_of_triangle[b] ||
+           apart_at_first(model, work.sizes, a, b);
   };
   NearWithin near;
   std::vector<char> meets(boxes.size(), 0);
@@ -164,7 +165,7 @@ NearWithin near_within(const Model& model, const ContactWork& work, const Search
   if (near.meeting.empty())
     return near;
   for (geom::Box& box : boxes)
-    box = grown(box, 2 * work.skin[block]);
+    box = grown(box, 2 * work.motion.skin[block]);
   for (const auto& [i, j] : geom::touching_pairs(boxes, meets)) {
     const int a = begin + i, b = begin + j;
     if (!strangers(a, b))

@@ -26,7 +26,7 @@ inline constexpr double searched_with_others = 0.6;
 // in this step.
 Renewed movers_to_search(const Model&, ContactWork&, bool all);
 // Writes Renewed::edges and edge_now. before: the edges by the numbers they had.
-void edges_to_search(const Model&, const ContactWork&, const std::vector<ContactEdge>& before,
+void edges_to_search(const Model&, const Movers&, const SurfaceEdges&, const std::vector<ContactEdge>& before,
                      bool fragments_due, Renewed&);
 
 } // namespace cdem

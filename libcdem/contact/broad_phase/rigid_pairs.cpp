@@ -88,24 +88,24 @@ double radius_of(const Model& model, const State& state, int b) {
 // m in a step, of b's fastest place seen from a.
 double relative_pace(const Model& model, const State& state, const ContactWork& work, int a, int b,
                      const std::vector<double>& pace) {
-  if (work.radius[a] < work.radius[b])
+  if (work.rigid_pairs.radius[a] < work.rigid_pairs.radius[b])
     std::swap(a, b);
   const int rigid_a = model.blocks[a].rigid, rigid_b = model.blocks[b].rigid;
   const RigidState &one = state.rigid[rigid_a], &other = state.rigid[rigid_b];
   const geom::Vec3 spin_a = spin(model.rigid[rigid_a], one, 0), spin_b = spin(model.rigid[rigid_b], other, 0),
                    arm = vec(other.centroid) - vec(one.centroid);
   const double relative =
-      work.last_step * ((vec(other.velocity) - vec(one.velocity) - spin_a.cross(arm)).norm() +
-                        (spin_b - spin_a).norm() * work.radius[b]);
+      work.motion.last_step * ((vec(other.velocity) - vec(one.velocity) - spin_a.cross(arm)).norm() +
+                               (spin_b - spin_a).norm() * work.rigid_pairs.radius[b]);
   const double sum = pace[a] + pace[b];
   return std::isfinite(relative) ? std::min(relative, sum) : sum;
 }
 
 // m, by how much a plane of a face of one of the two parts them; 0: none does.
-double distance_apart(const Model& model, const State& state, const ContactWork& work, int a, int b) {
+double distance_apart(const Model& model, const State& state, const RigidPairs& pairs, int a, int b) {
   double best = 0;
   for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
-    for (const int t : work.planes[one]) {
+    for (const int t : pairs.planes[one]) {
       const Corners x = corners_of(model, state, model.surface.triangles[t].nodes);
       const geom::Vec3 normal = unit_normal(x);
       double least = std::numeric_limits<double>::infinity();
@@ -121,51 +121,51 @@ bool before(const RigidPair& x, const RigidPair& y) {
 }
 
 // m, at most, of the motion since it was searched.
-double used_of_skin(const ContactWork& work, const RigidPair& pair) {
+double used_of_skin(const RigidPairs& pairs, const RigidPair& pair) {
   return std::min(
-      path_of(work, pair) - pair.path_at_search,
-      motion_between(seen_from(work.pose[pair.a], work.pose[pair.b]), pair.at_search, pair.radius_b));
+      path_of(pairs, pair) - pair.path_at_search,
+      motion_between(seen_from(pairs.pose[pair.a], pairs.pose[pair.b]), pair.at_search, pair.radius_b));
 }
 
 } // namespace
 
-void find_pairwise(const Model& model, const State& state, ContactWork& work) {
+void find_pairwise(const Model& model, const State& state, const Movers& movers, RigidPairs& pairs) {
   const auto blocks = static_cast<int>(model.blocks.size());
   const ContactSurface& s = model.surface;
-  const bool first = work.pose.empty();
+  const bool first = pairs.pose.empty();
   if (first) {
-    work.pose.resize(model.blocks.size());
-    work.radius.resize(model.blocks.size(), 0.0);
-    work.planes.resize(model.blocks.size());
+    pairs.pose.resize(model.blocks.size());
+    pairs.radius.resize(model.blocks.size(), 0.0);
+    pairs.planes.resize(model.blocks.size());
   }
-  work.pairwise.assign(model.blocks.size(), 0);
+  pairs.pairwise.assign(model.blocks.size(), 0);
   std::vector<int> fragments;
-  const auto fragment = [&](int b) { return work.fragment[s.block_begin[b]]; };
+  const auto fragment = [&](int b) { return movers.fragment_of_triangle[s.block_begin[b]]; };
   for (int b = 0; b < blocks; ++b) {
     const Block& block = model.blocks[b];
-    work.pairwise[b] = static_cast<char>(block.rigid >= 0 && block.convex() && block.meshed &&
-                                         !work.broken[b] && s.block_begin[b] < s.block_begin[b + 1]);
+    pairs.pairwise[b] = static_cast<char>(block.rigid >= 0 && block.convex() && block.meshed &&
+                                          !movers.broken[b] && s.block_begin[b] < s.block_begin[b + 1]);
     if (s.block_begin[b] < s.block_begin[b + 1])
       fragments.push_back(fragment(b));
   }
   std::sort(fragments.begin(), fragments.end());
   for (int b = 0; b < blocks; ++b) {
-    if (!work.pairwise[b])
+    if (!pairs.pairwise[b])
       continue;
     const auto [begin, end] = std::equal_range(fragments.begin(), fragments.end(), fragment(b));
-    work.pairwise[b] = static_cast<char>(end - begin == 1); // else its bonds hold others
-    if (work.radius[b] == 0) {
-      work.radius[b] = radius_of(model, state, b);
-      work.planes[b] = planes_of(model, state, b);
+    pairs.pairwise[b] = static_cast<char>(end - begin == 1); // else its bonds hold others
+    if (pairs.radius[b] == 0) {
+      pairs.radius[b] = radius_of(model, state, b);
+      pairs.planes[b] = planes_of(model, state, b);
     }
   }
-  set_poses(model, state, work);
+  set_poses(model, state, pairs);
 }
 
-void set_poses(const Model& model, const State& state, ContactWork& work) {
+void set_poses(const Model& model, const State& state, RigidPairs& pairs) {
   for (std::size_t i = 0; i < model.rigid.size(); ++i)
-    if (work.pairwise[model.rigid[i].block])
-      work.pose[model.rigid[i].block] = {vec(state.rigid[i].centroid), state.rigid[i].rotation};
+    if (pairs.pairwise[model.rigid[i].block])
+      pairs.pose[model.rigid[i].block] = {vec(state.rigid[i].centroid), state.rigid[i].rotation};
 }
 
 BodyPose seen_from(const BodyPose& a, const BodyPose& b) {
@@ -177,24 +177,24 @@ double motion_between(const BodyPose& x, const BodyPose& y, double radius) {
          rounding * (radius + x.centre.norm());
 }
 
-RigidPair pair_of(const ContactWork& work, int a, int b, double skin) {
-  if (work.radius[a] < work.radius[b])
+RigidPair pair_of(const SurfaceSizes& sizes, const RigidPairs& pairs, int a, int b, double skin) {
+  if (pairs.radius[a] < pairs.radius[b])
     std::swap(a, b);
   RigidPair pair;
   pair.a = a;
   pair.b = b;
-  pair.radius_b = work.radius[b];
+  pair.radius_b = pairs.radius[b];
   pair.skin = skin;
-  pair.at = work.steps;
-  pair.at_search = pair.at_look = seen_from(work.pose[a], work.pose[b]);
-  pair.path_at_search = pair.path_at_look = path_of(work, pair);
-  pair.threshold = 0.25 * std::min(work.shallow[a], work.shallow[b]);
+  pair.at = pairs.steps;
+  pair.at_search = pair.at_look = seen_from(pairs.pose[a], pairs.pose[b]);
+  pair.path_at_search = pair.path_at_look = path_of(pairs, pair);
+  pair.threshold = 0.25 * std::min(sizes.shallow[a], sizes.shallow[b]);
   return pair;
 }
 
-void update_motion(const ContactWork& work, RigidPair& pair) {
-  const BodyPose now = seen_from(work.pose[pair.a], work.pose[pair.b]);
-  const double path = path_of(work, pair);
+void update_motion(const RigidPairs& pairs, RigidPair& pair) {
+  const BodyPose now = seen_from(pairs.pose[pair.a], pairs.pose[pair.b]);
+  const double path = path_of(pairs, pair);
   double since = std::min(path - pair.path_at_look, motion_between(now, pair.at_look, pair.radius_b));
   if (since > pair.threshold) {
     pair.base += since;
@@ -206,13 +206,13 @@ void update_motion(const ContactWork& work, RigidPair& pair) {
   pair.from = pair.base - since;
 }
 
-bool any_left_skin(ContactWork& work) {
+bool any_left_skin(RigidPairs& pairs) {
   bool left = false;
-  for (RigidPair& pair : work.rigid_pairs) {
-    const double path = path_of(work, pair);
+  for (RigidPair& pair : pairs.all) {
+    const double path = path_of(pairs, pair);
     if (path < pair.leaves_at)
       continue;
-    const double rest = pair.skin - used_of_skin(work, pair);
+    const double rest = pair.skin - used_of_skin(pairs, pair);
     left = left || rest <= 0;
     pair.leaves_at = path + std::max(0.0, rest);
   }
@@ -227,35 +227,36 @@ PairsSearched pairs_to_search(const Model& model, const State& state, const Cont
                               const SearchMargin& margins, const std::vector<double>& pace,
                               const Pairs* near) {
   PairsSearched found;
-  found.now.assign(work.rigid_pairs.size(), -1);
+  found.now.assign(work.rigid_pairs.all.size(), -1);
   std::vector<char> anew;
   const auto add = [&](int a, int b) {
-    const int known = number_of(work.rigid_pairs, a, b);
-    const RigidPair* const old = known < 0 ? nullptr : &work.rigid_pairs[known];
-    if (old && !work.all_due && !work.looks_at_all &&
-        used_of_skin(work, *old) <= (1 - searched_with_others) * old->skin) {
+    const int known = number_of(work.rigid_pairs.all, a, b);
+    const RigidPair* const old = known < 0 ? nullptr : &work.rigid_pairs.all[known];
+    if (old && !work.search.all_due && !work.options.looks_at_all &&
+        used_of_skin(work.rigid_pairs, *old) <= (1 - searched_with_others) * old->skin) {
       found.now[known] = static_cast<int>(found.pairs.size());
       found.kept = true;
       found.pairs.push_back(*old);
       return;
     }
     int doublings = old ? old->doublings : 0;
-    if (old && work.steps - old->at < few_steps)
+    if (old && work.rigid_pairs.steps - old->at < few_steps)
       doublings = std::min(doublings + 1, most_doublings);
-    else if (old && work.steps - old->at > many_steps)
+    else if (old && work.rigid_pairs.steps - old->at > many_steps)
       doublings = std::max(doublings - 1, 0);
-    const double least = thinnest * work.usual_height * static_cast<double>(1 << doublings);
+    const double least = thinnest * work.sizes.usual_height * static_cast<double>(1 << doublings);
     const double skin = std::min(std::max(least, steps_ahead * relative_pace(model, state, work, a, b, pace)),
-                                 thickest * work.usual_height);
+                                 thickest * work.sizes.usual_height);
     // Two blocks that a plane parts have no rows, and need none until they have moved as far as it parts them: edges touch
     // by their fans, which may be by as much as their depth before a plane tells.
-    const double depth = std::max(std::min(edge_depth(work, a), edge_depth(work, b)), margins.known(a, b)),
-                 apart = distance_apart(model, state, work, a, b) - depth - slack_of(model, work, a) -
-                         slack_of(model, work, b);
+    const double depth = std::max(std::min(edge_depth(work.sizes, a), edge_depth(work.sizes, b)),
+                                  margins.known(a, b)),
+                 apart = distance_apart(model, state, work.rigid_pairs, a, b) - depth -
+                         slack_of(model, work, a) - slack_of(model, work, b);
     const bool rows = apart <= skin;
     if (rows)
       found.searched.push_back(static_cast<int>(found.pairs.size()));
-    found.pairs.push_back(pair_of(work, a, b, rows ? skin : apart));
+    found.pairs.push_back(pair_of(work.sizes, work.rigid_pairs, a, b, rows ? skin : apart));
     found.pairs.back().doublings = rows ? doublings : 0;
   };
   if (near) {
@@ -266,29 +267,24 @@ PairsSearched pairs_to_search(const Model& model, const State& state, const Cont
     for (const auto& [a, b] : sorted)
       add(a, b);
   } else {
-    for (const RigidPair& pair : work.rigid_pairs)
+    for (const RigidPair& pair : work.rigid_pairs.all)
       add(std::min(pair.a, pair.b), std::max(pair.a, pair.b));
   }
   return found;
 }
 
 void keep_rigid_pairs(ContactWork& before, ContactWork& work) {
-  if (before.due || before.shared || before.rigid_pairs.empty())
+  if (before.due || !before.shared->alone() || before.rigid_pairs.all.empty())
     return;
   for (std::size_t kind = 0; kind < work.rows.size(); ++kind) {
-    std::vector<ContactRow>& rows = before.rows[kind];
+    std::vector<ContactRow>& rows = before.rows[kind].all;
     rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& row) { return row.pair < 0; }),
                rows.end());
-    work.rows[kind] = std::move(rows);
-    work.candidates[kind] = std::move(before.candidates[kind]);
+    work.rows[kind].all = std::move(rows);
+    work.rows[kind].candidates = std::move(before.rows[kind].candidates);
   }
-  work.edges = std::move(before.edges); // by their numbers, which rows have
+  work.edges.all = std::move(before.edges.all); // by their numbers, which rows have
   work.rigid_pairs = std::move(before.rigid_pairs);
-  work.pose = std::move(before.pose);
-  work.radius = std::move(before.radius);
-  work.planes = std::move(before.planes);
-  work.path = std::move(before.path);
-  work.steps = before.steps;
 }
 
 int number_of(const std::vector<RigidPair>& pairs, int a, int b) {

@@ -6,13 +6,13 @@
 
 namespace cdem {
 
-// Writes ContactWork::pairwise, planes, radius and pose. Fragments are known.
-void find_pairwise(const Model&, const State&, ContactWork&);
-// Writes ContactWork::pose.
-void set_poses(const Model&, const State&, ContactWork&);
+// Writes RigidPairs::pairwise, planes, radius and pose.
+void find_pairwise(const Model&, const State&, const Movers&, RigidPairs&);
+// Writes RigidPairs::pose.
+void set_poses(const Model&, const State&, RigidPairs&);
 
-inline bool pairwise(const ContactWork& work, int block_a, int block_b) {
-  return work.pairwise[block_a] && work.pairwise[block_b];
+inline bool pairwise(const RigidPairs& pairs, int block_a, int block_b) {
+  return pairs.pairwise[block_a] && pairs.pairwise[block_b];
 }
 
 // b seen from a.
@@ -20,23 +20,23 @@ BodyPose seen_from(const BodyPose& a, const BodyPose& b);
 // m, that no place within the radius of a body moves further between two poses.
 double motion_between(const BodyPose&, const BodyPose&, double radius);
 // The pair as it is when it is searched. skin: m.
-RigidPair pair_of(const ContactWork&, int block_a, int block_b, double skin);
+RigidPair pair_of(const SurfaceSizes&, const RigidPairs&, int block_a, int block_b, double skin);
 // Writes RigidPair::moved and from.
-void update_motion(const ContactWork&, RigidPair&);
+void update_motion(const RigidPairs&, RigidPair&);
 
-inline double path_of(const ContactWork& work, const RigidPair& pair) {
-  return work.path[pair.a] + work.path[pair.b];
+inline double path_of(const RigidPairs& pairs, const RigidPair& pair) {
+  return pairs.path[pair.a] + pairs.path[pair.b];
 }
 
 // True when one has left its skin.
-bool any_left_skin(ContactWork&);
+bool any_left_skin(RigidPairs&);
 
 // m, a block with these slacks around it holds all that its nearest places may take for inside.
 double slack_of(const Model&, const ContactWork&, int block);
 
 // What a search finds anew of rigid pairs.
 struct PairsSearched {
-  std::vector<RigidPair> pairs; // those there are now, as ContactWork::rigid_pairs
+  std::vector<RigidPair> pairs; // those there are now, as RigidPairs::all
   std::vector<int> searched;    // of them
   std::vector<int> now;         // per pair before: its number now, if it keeps its rows; else -1
   bool kept = false;            // one keeps its rows

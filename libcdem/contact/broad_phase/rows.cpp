@@ -15,7 +15,7 @@ public:
       : surface_(model.surface), work_(work), margins_(margins), kind_(kind), renewed_(renewed) {}
 
   std::size_t sources() const {
-    return kind_ == Contact::spring ? surface_.triangles.size() : work_.edges.size();
+    return kind_ == Contact::spring ? surface_.triangles.size() : work_.edges.all.size();
   }
 
   // By source; the targets of each by group and number.
@@ -68,14 +68,14 @@ public:
 private:
   using Group = std::pair<int, int>;
 
-  int triangle(bool edge, int i) const { return edge ? work_.edges[i].triangles[0] : i; }
+  int triangle(bool edge, int i) const { return edge ? work_.edges.all[i].triangles[0] : i; }
   int source_triangle(int i) const { return triangle(kind_ == Contact::edge, i); }
   int block(std::uint32_t target) const {
     return surface_.triangles[source_triangle(static_cast<int>(target))].block;
   }
   int mover(int i) const { return work_.movers.of_triangle[source_triangle(i)]; }
   Group group(std::uint32_t target) const {
-    const int fragment = work_.fragment[source_triangle(static_cast<int>(target))];
+    const int fragment = work_.movers.fragment_of_triangle[source_triangle(static_cast<int>(target))];
     return {kind_ == Contact::spring ? 0 : block(target), fragment};
   }
   bool renumbered() const { return kind_ == Contact::edge && !renewed_.edge_now.empty(); }
@@ -117,7 +117,7 @@ private:
   }
   bool is_renewed(int source, int target) const { // triangles
     return renewed_.movers[mover(source)] || renewed_.movers[mover(target)] ||
-           work_.changed[source] == Change::surface || renewed_.surfaced[mover(target)];
+           work_.movers.changed[source] == Change::surface || renewed_.surfaced[mover(target)];
   }
 
   void keep(ContactRow row, int source) {
@@ -136,11 +136,11 @@ private:
     row.source = source;
     row.block = block(found_[first].target);
     const int own = mover(source), other = mover(static_cast<int>(found_[first].target));
-    row.pair = number_of(work_.rigid_pairs, own, other);
+    row.pair = number_of(work_.rigid_pairs.all, own, other);
     if (kind_ == Contact::edge)
       row.reach =
           static_cast<float>(margins_.known(surface_.triangles[source_triangle(source)].block, row.block) +
-                             (row.pair >= 0 ? work_.rigid_pairs[row.pair].skin
+                             (row.pair >= 0 ? work_.rigid_pairs.all[row.pair].skin
                                             : margins_.allowed()[own] + margins_.allowed()[other]));
     place(row, &found_[first], end - first);
     return end;
@@ -193,10 +193,10 @@ void make_rows(const Model& model, ContactWork& work, const SearchMargin& margin
                const std::vector<std::vector<Near>>& parts, Contact::Kind kind, const Renewed& renewed) {
   RowMaker maker(model, work, margins, kind, renewed);
   maker.sort(parts);
-  std::vector<ContactRow>& rows = work.rows[kind];
-  maker.merge(rows, work.candidates[kind]);
-  maker.take(rows, work.candidates[kind]);
-  RowsAsleep& asleep = work.asleep[kind];
+  std::vector<ContactRow>& rows = work.rows[kind].all;
+  maker.merge(rows, work.rows[kind].candidates);
+  maker.take(rows, work.rows[kind].candidates);
+  RowsAsleep& asleep = work.rows[kind].asleep;
   asleep.recheck_distance.resize(rows.size());
   asleep.source_mover.resize(rows.size());
   asleep.mover.resize(rows.size());
@@ -210,7 +210,7 @@ void make_rows(const Model& model, ContactWork& work, const SearchMargin& margin
     asleep.source_mover[r] = rows[r].source_mover;
     asleep.mover[r] = rows[r].mover;
   }
-  sort_by_pair(rows, work.rigid_pairs.size(), asleep.of_pairs);
+  sort_by_pair(rows, work.rigid_pairs.all.size(), asleep.of_pairs);
 }
 
 } // namespace cdem

@@ -7,6 +7,7 @@
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/rows.hpp"
 #include "libcdem/contact/broad_phase/search_shares.hpp"
+#include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libcdem/joint/softening.hpp"
@@ -58,12 +59,14 @@ double require_apart(const Model& model, const ActiveSurface& active, const Pair
 
 // Without those of convex blocks that an interface holds together, and without those of one unbroken fragment that have no
 // broken bond between them and what is around them.
-Pairs free_pairs(const Model& model, const State& state, const ContactWork& work, Pairs pairs) {
+Pairs free_pairs(const Model& model, const State& state, const Movers& movers, Pairs pairs) {
   if (model.frames.empty())
     return pairs;
   const Pairs held = held_pairs(model, state);
   const std::vector<char> loose = blocks_with_broken_bonds(model, state);
-  const auto fragment = [&](int block) { return work.fragment[model.surface.block_begin[block]]; };
+  const auto fragment = [&](int block) {
+    return movers.fragment_of_triangle[model.surface.block_begin[block]];
+  };
   const auto convex = [&](int block) { return model.blocks[block].convex(); };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
                              [&](const auto& pair) {
@@ -98,13 +101,13 @@ double bonds_give(const Model& model, int block) {
 
 } // namespace
 
-double depth_limit(const ContactWork& work, const ContactTriangle& a, const ContactTriangle& b) {
-  return std::min(depth_of(work, a), depth_of(work, b));
+double depth_limit(const SurfaceSizes& sizes, const ContactTriangle& a, const ContactTriangle& b) {
+  return std::min(depth_of(sizes, a), depth_of(sizes, b));
 }
 
 void start_contact(const Model& model, ContactWork& work) {
   const ContactSurface& s = model.surface;
-  work.told_due.assign(model.blocks.size(), 1);
+  work.search.told_due.assign(model.blocks.size(), 1);
   if (s.empty())
     return;
   assert(s.triangles.size() <= last_contact_triangle / 2); // edges are fewer than three to two triangles
@@ -113,31 +116,32 @@ void start_contact(const Model& model, ContactWork& work) {
     if (t.face < 0)
       heights.push_back(t.height);
   std::nth_element(heights.begin(), heights.begin() + heights.size() / 2, heights.end());
-  work.usual_height = heights[heights.size() / 2];
-  work.shallow = s.usual_height;
-  for (double& height : work.shallow)
+  work.sizes.usual_height = heights[heights.size() / 2];
+  work.sizes.shallow = s.usual_height;
+  for (double& height : work.sizes.shallow)
     height *= shallow_ratio;
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
-    work.bonds_give.push_back(bonds_give(model, static_cast<int>(b)));
-  for (std::vector<double>* of_movers : {&work.travelled, &work.last_displacement, &work.skin, &work.path})
+    work.sizes.bonds_give.push_back(bonds_give(model, static_cast<int>(b)));
+  for (std::vector<double>* of_movers :
+       {&work.motion.travelled, &work.motion.last_displacement, &work.motion.skin, &work.rigid_pairs.path})
     of_movers->assign(model.blocks.size(), 0.0);
   for (const auto& [bodies, law] : s.joint)
     work.restitution = work.restitution || model.joints[law].restitution < 1;
-  work.freed.assign(model.blocks.size(), 0);
+  work.sizes.freed.assign(model.blocks.size(), 0);
   for (const MeshChunk& chunk : model.mesh.chunks)
     if (chunk.side_batches.size() > 0)
-      work.freed[chunk.block] = 1;
-  work.force.assign(model.node_position.size(), Node{});
-  work.stiffness.assign(model.node_position.size(), 0.0);
-  work.rigid_sums.resize(model.rigid.size());
-  work.on_rigid.assign(model.rigid.size(), {});
+      work.sizes.freed[chunk.block] = 1;
+  work.loads.force.assign(model.node_position.size(), Node{});
+  work.loads.stiffness.assign(model.node_position.size(), 0.0);
+  work.loads.rigid_sums.resize(model.rigid.size());
+  work.loads.on_rigid.assign(model.rigid.size(), {});
 }
 
 namespace {
 
 // Leaves out, where only fragments of one of two blocks are searched, the other fragments of that block. The edge of a
 // wedge that two fragments make stands at one of them and is searched with either.
-void leave_out_known(const ContactWork& work, const ActiveSurface& active, const Renewed& renewed,
+void leave_out_known(const SurfaceEdges& surface_edges, const ActiveSurface& active, const Renewed& renewed,
                      SharedPart& part) {
   if (renewed.all || (renewed.blocks[part.block_a] && renewed.blocks[part.block_b]))
     return;
@@ -145,8 +149,8 @@ void leave_out_known(const ContactWork& work, const ActiveSurface& active, const
     const int t = active.triangles[place];
     const auto edges = renewed.edges.begin();
     return !active.source_searched[place] && !active.target_searched[place] &&
-           std::find(edges + work.edge_begin[t], edges + work.edge_begin[t + 1], 1) ==
-               edges + work.edge_begin[t + 1];
+           std::find(edges + surface_edges.begin[t], edges + surface_edges.begin[t + 1], 1) ==
+               edges + surface_edges.begin[t + 1];
   };
   std::vector<int>& of_searched = renewed.blocks[part.block_a] ? part.of_a : part.of_b;
   of_searched.erase(std::remove_if(of_searched.begin(), of_searched.end(), known), of_searched.end());
@@ -174,9 +178,9 @@ void leave_out_known(const ActiveSurface& active, const Renewed& renewed, Pairs&
 // depth.
 void let_all_wake(ContactWork& work, bool pairs_too) {
   for (std::size_t kind = 0; kind < work.rows.size(); ++kind) {
-    RowsAsleep& asleep = work.asleep[kind];
-    for (std::size_t r = 0; r < work.rows[kind].size(); ++r) {
-      ContactRow& row = work.rows[kind][r];
+    RowsAsleep& asleep = work.rows[kind].asleep;
+    for (std::size_t r = 0; r < work.rows[kind].all.size(); ++r) {
+      ContactRow& row = work.rows[kind].all[r];
       if (row.pair >= 0 && !pairs_too)
         continue;
       row.recheck_distance = row.allowed = 0;
@@ -190,7 +194,7 @@ void let_all_wake(ContactWork& work, bool pairs_too) {
   }
   if (!pairs_too)
     return;
-  for (RigidPair& pair : work.rigid_pairs) {
+  for (RigidPair& pair : work.rigid_pairs.all) {
     pair.next = {};
     pair.look_at = 0;
   }
@@ -199,31 +203,34 @@ void let_all_wake(ContactWork& work, bool pairs_too) {
 } // namespace
 
 bool search_contacts(const Model& model, const State& state, ContactWork& work, int threads) {
+  Searches& search = work.search;
   const ContactSurface& s = model.surface;
-  const bool fragments_due = work.fragments_due, fragments_only = !model.frames.empty();
+  const bool fragments_due = search.fragments_due, fragments_only = !model.frames.empty();
   std::vector<ContactEdge> edges_before;
   if (fragments_due) {
-    std::swap(edges_before, work.edges);
-    find_fragments(model, state, work);
-    find_semi_edges(model, state, work);
+    edges_before = std::move(work.edges.all);
+    find_fragments(model, state, work.movers, work.motion);
+    find_tets_beyond(model, work.movers, work.tets_beyond);
+    work.edges = find_semi_edges(model, state, work.movers);
     set_displacements(model, state, work, threads);
-    find_pairwise(model, state, work);
+    find_pairwise(model, state, work.movers, work.rigid_pairs);
   }
   Renewed renewed = movers_to_search(model, work,
-                                     work.blocks_due || work.all_due || work.searches == 0 ||
+                                     search.blocks_due || search.all_due || search.count == 0 ||
                                          (fragments_due && fragments_only));
-  edges_to_search(model, work, edges_before, fragments_due, renewed);
+  edges_to_search(model, work.movers, work.edges, edges_before, fragments_due, renewed);
   const std::vector<double> pace = choose_skins(model, state, work, renewed);
   const SearchMargin margins(model, state, work, renewed);
-  const ActiveSurface active = active_surface(model, state, work, margins, renewed, threads);
+  const ActiveSurface active = active_surface(model, state, work.movers, margins, renewed, threads);
   if (!active.finite())
     return false;
   std::vector<char> has_surface;
   for (std::size_t b = 0; b + 1 < active.block_begin.size(); ++b)
     has_surface.push_back(static_cast<char>(active.block_begin[b] < active.block_begin[b + 1]));
-  Pairs blocks = free_pairs(model, state, work, geom::touching_pairs(active.block_boxes, has_surface));
+  Pairs blocks = free_pairs(model, state, work.movers, geom::touching_pairs(active.block_boxes, has_surface));
   const auto rigid = std::stable_partition(blocks.begin(), blocks.end(), [&](const auto& pair) {
-    return !pairwise(work, pair.first, pair.second) || !contact_joint(model, pair.first, pair.second);
+    return !pairwise(work.rigid_pairs, pair.first, pair.second) ||
+           !contact_joint(model, pair.first, pair.second);
   });
   const Pairs rigid_near(rigid, blocks.end());
   blocks.erase(std::remove_if(blocks.begin(), rigid,
@@ -239,7 +246,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   // there meets its surface once.
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
     if (model.blocks[b].meshed && !model.blocks[b].star() && model.blocks[b].rigid < 0 && renewed.blocks[b] &&
-        !work.broken[b] && contact_joint(model, b, b))
+        !work.movers.broken[b] && contact_joint(model, b, b))
       alone.push_back(b);
   const auto n_pairs = static_cast<std::int64_t>(blocks.size()),
              n_alone = static_cast<std::int64_t>(alone.size());
@@ -281,7 +288,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     if (!model.blocks[a].meshed || !model.blocks[b].meshed)
       return;
     SharedPart part = shared_part(active, a, b, skins);
-    leave_out_known(work, active, renewed, part);
+    leave_out_known(work.edges, active, renewed, part);
     if (!contact_joint(model, a, b)) {
       try {
         may_go[place] = require_apart(model, active, meeting(margins, active, part));
@@ -303,23 +310,23 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   share_found(model, work, renewed.all && !pairs.kept, found);
   if (!found.wrong.empty())
     throw SolutionError(found.wrong);
-  work.rigid_pairs = std::move(pairs.pairs);
+  work.rigid_pairs.all = std::move(pairs.pairs);
   make_rows(model, work, margins, found.springs, Contact::spring, renewed);
   make_rows(model, work, margins, found.edges, Contact::edge, renewed);
-  work.undefined_pair_margin =
-      renewed.all ? found.may_go : std::min(work.undefined_pair_margin, found.may_go);
+  search.undefined_pair_margin =
+      renewed.all ? found.may_go : std::min(search.undefined_pair_margin, found.may_go);
   for (int m = 0; m < work.movers.count(); ++m)
     if (renewed.movers[m])
-      work.travelled[m] = 0;
-  begin_drifts(model, state, renewed, work);
+      work.motion.travelled[m] = 0;
+  begin_drifts(model, state, work.movers, renewed, work.motion);
   set_drifts(model, state, work, threads);
-  ++work.searches;
-  if (work.anew) // whatever is known, all is looked at
+  ++search.count;
+  if (search.anew) // whatever is known, all is looked at
     let_all_wake(work, any_bonded_faces(model, state));
   if (renewed.all)
-    work.steps_since_search = 0;
-  work.fragments_due = work.blocks_due = work.pairs_due = work.all_due = work.anew = false;
-  work.history_complete = true;
+    search.steps_since = 0;
+  search.fragments_due = search.blocks_due = search.pairs_due = search.all_due = search.anew = false;
+  search.history_complete = true;
   return true;
 }
 

@@ -18,6 +18,6 @@ void start_contact(const Model&, ContactWork&);
 bool search_contacts(const Model&, const State&, ContactWork&, int threads);
 
 // Beyond this depth a contact is not to be trusted: a quarter of the shallower tet's height, m.
-double depth_limit(const ContactWork&, const ContactTriangle&, const ContactTriangle&);
+double depth_limit(const SurfaceSizes&, const ContactTriangle&, const ContactTriangle&);
 
 } // namespace cdem

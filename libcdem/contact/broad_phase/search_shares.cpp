@@ -17,8 +17,8 @@ constexpr std::int64_t row_load = 4;
 // Triangles whose loads are counted together.
 constexpr std::int64_t triangles_per_count = 16;
 
-int triangle_of(const ContactWork& work, Contact::Kind kind, int source) {
-  return kind == Contact::spring ? source : work.edges[source].triangles[0];
+int triangle_of(const SurfaceEdges& edges, Contact::Kind kind, int source) {
+  return kind == Contact::spring ? source : edges.all[source].triangles[0];
 }
 
 template <class Visit>
@@ -35,8 +35,9 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
       static_cast<std::size_t>((triangles + triangles_per_count - 1) / triangles_per_count), 0);
   int source = -1, mover = -1;
   each_near(found, [&](Contact::Kind kind, const Near& near) {
-    const int from = triangle_of(work, kind, near.source),
-              to = triangle_of(work, kind, static_cast<int>(near.target)), of = work.movers.of_triangle[to];
+    const int from = triangle_of(work.edges, kind, near.source),
+              to = triangle_of(work.edges, kind, static_cast<int>(near.target)),
+              of = work.movers.of_triangle[to];
     const bool of_row = near.source == source && of == mover;
     counts[triangle_of_row(model, from, to) / triangles_per_count] += of_row ? 1 : 1 + row_load;
     source = near.source;
@@ -54,8 +55,6 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
 std::vector<std::int64_t> own_share(const ContactWork& work, const std::vector<double>& load) {
   std::vector<std::int64_t> items(load.size());
   std::iota(items.begin(), items.end(), std::int64_t{0});
-  if (!work.shared)
-    return items;
   std::stable_sort(items.begin(), items.end(),
                    [&](std::int64_t a, std::int64_t b) { return load[a] > load[b]; });
   const Partition& part = work.shared->part();
@@ -90,15 +89,15 @@ double near_triangles_of(const ActiveSurface& active, int a, int b) {
 }
 
 void share_found(const Model& model, ContactWork& work, bool all, FoundNear& found) {
-  if (!work.shared)
+  if (work.shared->alone())
     return;
   if (all)
     cut_sources(model, work, found);
   const Partition& part = work.shared->part();
   std::vector<std::array<std::vector<Near>, 2>> to(static_cast<std::size_t>(part.size));
   each_near(found, [&](Contact::Kind kind, const Near& near) {
-    to[owner_of_row(model, work, triangle_of(work, kind, near.source),
-                    triangle_of(work, kind, static_cast<int>(near.target)))][kind]
+    to[owner_of_row(model, work, triangle_of(work.edges, kind, near.source),
+                    triangle_of(work.edges, kind, static_cast<int>(near.target)))][kind]
         .push_back(near);
   });
   std::vector<std::string> told;

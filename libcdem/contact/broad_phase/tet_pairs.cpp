@@ -27,7 +27,7 @@ constexpr double steps_near = 30;
 std::vector<int> joints_of(const Model& model, const State& state, const ContactWork& work) {
   geom::DisjointSets sets(model.node_position.size());
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (!work.broken[chunk.block] || (state.faces[batch].told[lane] & ToldOfFace::left) != 0)
+    if (!work.movers.broken[chunk.block] || (state.faces[batch].told[lane] & ToldOfFace::left) != 0)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
     for (int k = 0; k < 3; ++k)
@@ -69,7 +69,7 @@ std::vector<char> with_rings(const Model& model, const Block& block, std::vector
 
 void add_tets(const Model& model, const ContactWork& work, int block, TetContacts& to) {
   const Block& b = model.blocks[block];
-  const std::vector<char> at_surface = tets_at_surface(model, work, block),
+  const std::vector<char> at_surface = tets_at_surface(model, work.movers, block),
                           all = with_rings(model, b, at_surface);
   const auto first = static_cast<std::ptrdiff_t>(to.nodes.size());
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
@@ -128,7 +128,7 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
   to.tets_begin.push_back(0);
   to.skin = std::numeric_limits<double>::infinity();
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
-    if (touches_itself(model, work, block)) {
+    if (touches_itself(model, work.movers, block)) {
       add_tets(model, work, block, to);
       to.skin = std::min(to.skin, skin_ratio * model.surface.usual_height[block]);
     }
@@ -164,10 +164,10 @@ bool told_anew(const Model& model, const State& state, ContactWork& work) {
   std::vector<char> changed(of.tets.size(), 0);
   std::size_t blocks = 0;
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block) {
-    if (!touches_itself(model, work, block))
+    if (!touches_itself(model, work.movers, block))
       continue;
     ++blocks;
-    const std::vector<char> at_surface = tets_at_surface(model, work, block);
+    const std::vector<char> at_surface = tets_at_surface(model, work.movers, block);
     for (std::size_t i = 0; i < at_surface.size(); ++i) {
       const int t = of.number[model.blocks[block].tet_begin + i];
       if (t < 0 && at_surface[i])
@@ -233,7 +233,7 @@ void find_near(const ContactWork& work, TetContacts& of) {
   for (std::size_t p = 0; p < of.pairs.count(); ++p) {
     const int a = of.pairs.a[p], b = of.pairs.b[p];
     if (!of.may_touch[p] ||
-        (!work.looks_at_all && left_by_paths(of, p) > 2 * twice * (margin[a] + margin[b])))
+        (!work.options.looks_at_all && left_by_paths(of, p) > 2 * twice * (margin[a] + margin[b])))
       continue;
     of.place_of_near.push_back(static_cast<int>(p));
     of.tets_of_near.emplace_back(of.tets[a].tet, of.tets[b].tet);
@@ -288,9 +288,9 @@ int TetContacts::pair_of(int tet, int other) const {
              : -1;
 }
 
-bool touches_itself(const Model& model, const ContactWork& work, int block) {
+bool touches_itself(const Model& model, const Movers& movers, int block) {
   const Block& b = model.blocks[block];
-  return work.broken[block] && b.meshed && !b.star() && b.rigid < 0 && contact_joint(model, block, block);
+  return movers.broken[block] && b.meshed && !b.star() && b.rigid < 0 && contact_joint(model, block, block);
 }
 
 void find_tet_pairs(const Model& model, const State& state, ContactWork& work, bool told) {
@@ -298,7 +298,7 @@ void find_tet_pairs(const Model& model, const State& state, ContactWork& work, b
   if (told) {
     bool any = false;
     for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
-      any = any || touches_itself(model, work, block);
+      any = any || touches_itself(model, work.movers, block);
     if (!any)
       work.tet_contacts = nullptr;
     else if (!work.tet_contacts) {

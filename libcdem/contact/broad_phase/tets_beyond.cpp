@@ -20,12 +20,12 @@ int face_of(const geom::Tet& tet, const geom::Triangle& triangle) {
 
 } // namespace
 
-std::vector<char> tets_at_surface(const Model& model, const ContactWork& work, int block) {
+std::vector<char> tets_at_surface(const Model& model, const Movers& movers, int block) {
   const ContactSurface& s = model.surface;
   const Block& b = model.blocks[block];
   std::vector<char> on_surface(s.original.size(), 0); // of the mesh before it was split
   for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
-    if (work.active[t])
+    if (movers.active[t])
       for (const int node : s.triangles[t].nodes)
         on_surface[s.original[node]] = 1;
   std::vector<char> at_surface;
@@ -37,37 +37,37 @@ std::vector<char> tets_at_surface(const Model& model, const ContactWork& work, i
   return at_surface;
 }
 
-void find_tets_beyond(const Model& model, ContactWork& work) {
+void find_tets_beyond(const Model& model, const Movers& movers, TetsBeyond& tets_beyond) {
   const ContactSurface& s = model.surface;
   const int first = model.mesh.first_tet;
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block) {
-    if (!work.broken[block])
+    if (!movers.broken[block])
       continue;
-    if (work.neighbours.empty())
-      work.neighbours = mesh_neighbours(model);
-    work.tets_beyond.resize(work.neighbours.size() / 4);
+    if (tets_beyond.neighbours.empty())
+      tets_beyond.neighbours = mesh_neighbours(model);
+    tets_beyond.of_tet.resize(tets_beyond.neighbours.size() / 4);
     const Block& b = model.blocks[block];
-    const std::vector<char> at_surface = tets_at_surface(model, work, block);
+    const std::vector<char> at_surface = tets_at_surface(model, movers, block);
     for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
       for (int face = 0; face < 4; ++face) {
-        const int beyond = work.neighbours[4 * (tet - first) + face];
-        work.tets_beyond[tet - first][face] = beyond < 0 ? TetsBeyond::none
-                                              : at_surface[first + beyond / 4 - b.tet_begin]
-                                                  ? first + beyond / 4
-                                                  : TetsBeyond::deep;
+        const int beyond = tets_beyond.neighbours[4 * (tet - first) + face];
+        tets_beyond.of_tet[tet - first][face] = beyond < 0 ? TetsBeyond::none
+                                                : at_surface[first + beyond / 4 - b.tet_begin]
+                                                    ? first + beyond / 4
+                                                    : TetsBeyond::deep;
       }
     for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
-      if (const ContactTriangle& triangle = s.triangles[t]; work.active[t])
-        work.tets_beyond[triangle.tet - first][face_of(model.tets[triangle.tet], triangle.nodes)] =
+      if (const ContactTriangle& triangle = s.triangles[t]; movers.active[t])
+        tets_beyond.of_tet[triangle.tet - first][face_of(model.tets[triangle.tet], triangle.nodes)] =
             TetsBeyond::none;
   }
 }
 
-bool stands_within(const Model& model, const State& state, const ContactWork& work, int triangle,
+bool stands_within(const Model& model, const State& state, const TetsBeyond& tets_beyond, int triangle,
                    const geom::Vec3& place, const geom::Vec3& x) {
   int tet = model.surface.triangles[triangle].tet, before = TetsBeyond::none;
   for (int passed = 0; passed < most_passed; ++passed) {
-    const std::array<int, 4>& beyond = work.tets_beyond[tet - model.mesh.first_tet];
+    const std::array<int, 4>& beyond = tets_beyond.of_tet[tet - model.mesh.first_tet];
     const geom::Tet& nodes = model.tets[tet];
     int out = -1;
     double least = 2; // part of the way, at which it leaves

@@ -11,14 +11,13 @@
 
 namespace cdem {
 
-// Writes ContactWork::tets_beyond for the movers that are known.
-void find_tets_beyond(const Model&, ContactWork&);
+void find_tets_beyond(const Model&, const Movers&, TetsBeyond&);
 
 // The tets of the block that have a node on its surface, as it is now, by their places in Block; others are deep.
-std::vector<char> tets_at_surface(const Model&, const ContactWork&, int block);
+std::vector<char> tets_at_surface(const Model&, const Movers&, int block);
 
 // x: m, behind the triangle, of which `place` is the place nearest to it.
-bool stands_within(const Model&, const State&, const ContactWork&, int triangle, const geom::Vec3& place,
+bool stands_within(const Model&, const State&, const TetsBeyond&, int triangle, const geom::Vec3& place,
                    const geom::Vec3& x);
 
 } // namespace cdem

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace cdem {
 
@@ -39,6 +40,20 @@ struct RigidPair {
   // m, of `moved`.
   std::array<int, 4> planes{-1, -1, -1, -1};
   double others_until = 0;
+};
+
+// Blocks that are rigid, convex and bonded to no other, and their pairs.
+struct RigidPairs {
+  // Per block, written by find_pairwise: 1 if it is such a block; of those, the radius, and triangles in the planes of their
+  // faces, by number.
+  std::vector<char> pairwise;
+  std::vector<double> radius; // m
+  std::vector<std::vector<int>> planes;
+  // Per block, how it stands, and the path of its fastest node, m, never less than it was.
+  std::vector<BodyPose> pose;
+  std::vector<double> path;
+  std::vector<RigidPair> all; // of those near each other, by their two numbers
+  std::int64_t steps = 0;     // of contact, since the stage began
 };
 
 } // namespace cdem

@@ -1,4 +1,4 @@
-// With several ranks: who keeps the row of a source and a target. All contacts of two rigid bodies stand at the later one,
+// Among several ranks: who keeps the row of a source and a target. All contacts of two rigid bodies stand at the later one,
 // so that edges know of each other, and ground that many bodies lie on is shared out by them; others stand at their
 // source. Each rank keeps the rows of a run of triangles.
 #pragma once
@@ -37,7 +37,7 @@ inline int owner_of_row(const Model& model, const ContactWork& work, int source,
 }
 
 inline bool keeps(const Model& model, const ContactWork& work, const Contact& c) {
-  if (!work.shared)
+  if (work.shared->alone())
     return true;
   const auto [source, target] = triangles_of(c);
   return owner_of_row(model, work, source, target) == work.shared->part().rank;

@@ -102,96 +102,94 @@ struct End {
   int edge = 0, end = 0;
 };
 
-void find_ends(const Model& model, ContactWork& work) {
+void find_ends(const Model& model, const Movers& movers, SurfaceEdges& edges) {
   std::vector<End> ends;
-  ends.reserve(2 * work.edges.size());
-  for (int e = 0; e < static_cast<int>(work.edges.size()); ++e)
+  ends.reserve(2 * edges.all.size());
+  for (int e = 0; e < static_cast<int>(edges.all.size()); ++e)
     for (int end = 0; end < 2; ++end)
-      ends.push_back({work.fragment[work.edges[e].triangles[0]],
-                      model.surface.original[work.edges[e].nodes[end]], e, end});
+      ends.push_back({movers.fragment_of_triangle[edges.all[e].triangles[0]],
+                      model.surface.original[edges.all[e].nodes[end]], e, end});
   std::sort(ends.begin(), ends.end(), [](const End& x, const End& y) {
     return std::tie(x.fragment, x.node, x.edge) < std::tie(y.fragment, y.node, y.edge);
   });
-  work.edge_ends.resize(work.edges.size());
-  work.edges_at.clear();
-  work.edges_at.reserve(3 * work.edges.size());
+  edges.ends.resize(edges.all.size());
+  edges.at_end.reserve(3 * edges.all.size());
   int begin = 0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    work.edge_ends[ends[i].edge][ends[i].end] = begin;
-    work.edges_at.push_back(ends[i].edge);
+    edges.ends[ends[i].edge][ends[i].end] = begin;
+    edges.at_end.push_back(ends[i].edge);
     if (i + 1 == ends.size() || ends[i + 1].fragment != ends[i].fragment ||
         ends[i + 1].node != ends[i].node) {
-      work.edges_at.push_back(-1);
-      begin = static_cast<int>(work.edges_at.size());
+      edges.at_end.push_back(-1);
+      begin = static_cast<int>(edges.at_end.size());
     }
   }
 }
 
 // In which edges the lines of all edges continue.
-void find_lines(const Model& model, ContactWork& work) {
+void find_lines(const Model& model, SurfaceEdges& edges) {
   const auto direction = [&](int from, int to) -> geom::Vec3 {
     return (model.node_position[to] - model.node_position[from]).normalized();
   };
   const std::vector<int>& original = model.surface.original;
-  work.edge_continues.resize(work.edges.size());
-  work.edges_beyond.clear();
-  work.edge_touched.assign(work.edges.size(), 0);
-  for (int e = 0; e < static_cast<int>(work.edges.size()); ++e)
+  edges.continues.resize(edges.all.size());
+  for (int e = 0; e < static_cast<int>(edges.all.size()); ++e)
     for (int end = 0; end < 2; ++end) {
-      const std::array<int, 2>& nodes = work.edges[e].nodes;
+      const std::array<int, 2>& nodes = edges.all[e].nodes;
       const geom::Vec3 along = direction(nodes[1 - end], nodes[end]);
-      work.edge_continues[e][end] = static_cast<int>(work.edges_beyond.size());
-      for (const int* other = &work.edges_at[work.edge_ends[e][end]]; *other >= 0; ++other) {
-        const auto& [a, b] = work.edges[*other].nodes;
+      edges.continues[e][end] = static_cast<int>(edges.beyond.size());
+      for (const int* other = &edges.at_end[edges.ends[e][end]]; *other >= 0; ++other) {
+        const auto& [a, b] = edges.all[*other].nodes;
         const bool begins = original[a] == original[nodes[end]];
         if (*other != e && along.dot(begins ? direction(a, b) : direction(b, a)) > line_cosine)
-          work.edges_beyond.push_back({*other, begins == (end == 1) ? 1. : -1.});
+          edges.beyond.push_back({*other, begins == (end == 1) ? 1. : -1.});
       }
-      work.edges_beyond.push_back({});
+      edges.beyond.push_back({});
     }
 }
 
-void find_triangles_beyond(const ContactSurface& s, ContactWork& work) {
-  work.beyond_edge.assign(s.triangles.size(), {-1, -1, -1});
-  for (const ContactEdge& e : work.edges) {
+void find_triangles_beyond(const ContactSurface& s, SurfaceEdges& edges) {
+  edges.triangle_beyond.assign(s.triangles.size(), {-1, -1, -1});
+  for (const ContactEdge& e : edges.all) {
     const auto [first, second] = e.triangles;
-    work.beyond_edge[first][e.corner] = second;
+    edges.triangle_beyond[first][e.corner] = second;
     const geom::Triangle& nodes = s.triangles[second].nodes;
     for (int corner = 0; corner < 3; ++corner) // there it runs the other way
       if (s.original[nodes[corner]] == s.original[e.nodes[1]] &&
           s.original[nodes[(corner + 1) % 3]] == s.original[e.nodes[0]])
-        work.beyond_edge[second][corner] = first;
+        edges.triangle_beyond[second][corner] = first;
   }
 }
 
 } // namespace
 
-void find_semi_edges(const Model& model, const State& state, ContactWork& work) {
+SurfaceEdges find_semi_edges(const Model& model, const State& state, const Movers& movers) {
   const ContactSurface& s = model.surface;
-  work.edges.clear();
+  SurfaceEdges edges;
   std::size_t next = 0;
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b) {
     const std::size_t first = next;
     while (next < s.edges.size() && s.edges[next].triangles[0] < s.block_begin[b + 1])
       ++next;
-    const auto begin = static_cast<std::ptrdiff_t>(work.edges.size());
-    if (!work.broken[b]) {
-      work.edges.insert(work.edges.end(), s.edges.begin() + static_cast<std::ptrdiff_t>(first),
-                        s.edges.begin() + static_cast<std::ptrdiff_t>(next));
+    const auto begin = static_cast<std::ptrdiff_t>(edges.all.size());
+    if (!movers.broken[b]) {
+      edges.all.insert(edges.all.end(), s.edges.begin() + static_cast<std::ptrdiff_t>(first),
+                       s.edges.begin() + static_cast<std::ptrdiff_t>(next));
       continue;
     }
-    add_edges_of_broken(model, state, b, work.edges);
-    std::sort(work.edges.begin() + begin, work.edges.end(),
+    add_edges_of_broken(model, state, b, edges.all);
+    std::sort(edges.all.begin() + begin, edges.all.end(),
               [](const ContactEdge& x, const ContactEdge& y) { return x.id() < y.id(); });
   }
-  work.edge_begin.assign(s.triangles.size() + 1, 0);
-  for (const ContactEdge& e : work.edges)
-    ++work.edge_begin[e.triangles[0] + 1];
+  edges.begin.assign(s.triangles.size() + 1, 0);
+  for (const ContactEdge& e : edges.all)
+    ++edges.begin[e.triangles[0] + 1];
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
-    work.edge_begin[t + 1] += work.edge_begin[t];
-  find_triangles_beyond(s, work);
-  find_ends(model, work);
-  find_lines(model, work);
+    edges.begin[t + 1] += edges.begin[t];
+  find_triangles_beyond(s, edges);
+  find_ends(model, movers, edges);
+  find_lines(model, edges);
+  return edges;
 }
 
 } // namespace cdem

@@ -6,12 +6,13 @@
 // angles. A wedge is a semi-edge if it is narrower than a flat angle.
 #pragma once
 
-#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/data/movers.hpp"
+#include "libcdem/contact/data/surface_edges.hpp"
+#include "libcdem/model/model.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
 
-// Writes ContactWork::edges, edge_begin, edge_ends and edges_at; fragments are known.
-void find_semi_edges(const Model&, const State&, ContactWork&);
+SurfaceEdges find_semi_edges(const Model&, const State&, const Movers&);
 
 } // namespace cdem

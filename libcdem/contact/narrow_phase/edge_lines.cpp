@@ -21,13 +21,14 @@ constexpr double aslant = 0.1;
 
 } // namespace
 
-EdgeLines::EdgeLines(const Model& model, const State& state, const ContactWork& work)
-    : model_(model), surface_(model.surface), state_(state), work_(work),
+EdgeLines::EdgeLines(const Model& model, const State& state, const SurfaceEdges& edges,
+                     const EdgesTouched& touched)
+    : model_(model), surface_(model.surface), state_(state), edges_(edges), touched_(touched),
       contacts_(std::partition_point(state.contacts.begin(), state.contacts.end(),
                                      [](const Contact& c) { return c.kind == Contact::spring; })) {}
 
 std::optional<EdgeTouch> EdgeLines::active(int e, int f, const NearestOfEdges& here) const {
-  auto touch = touch_of(model_, state_, work_.edges[e], work_.edges[f], here);
+  auto touch = touch_of(model_, state_, edges_.all[e], edges_.all[f], here);
   if (!touch || !(touch->depth > 0))
     return std::nullopt;
   const double distance = here.way.norm();
@@ -39,7 +40,7 @@ std::optional<EdgeTouch> EdgeLines::active(int e, int f, const NearestOfEdges& h
     const NearestOfEdges there = nearest(source, target);
     if (!nearer(source, target, there, e, f, here))
       return false;
-    const auto other = touch_of(model_, state_, work_.edges[source], work_.edges[target], there);
+    const auto other = touch_of(model_, state_, edges_.all[source], edges_.all[target], there);
     if (!other || ways * other->sense != touch->sense)
       return false;
     // Two that are others on both lines may be near without being passed there.
@@ -101,12 +102,12 @@ bool EdgeLines::takes_over(int e, int f, const geom::Vec3& normal, int from, int
 bool EdgeLines::at_last_end(int edge, double place) const {
   if (place > drawn_in && place < 1 - drawn_in)
     return false;
-  return work_.edges_beyond[work_.edge_continues[edge][place < 0.5 ? 0 : 1]].edge < 0;
+  return edges_.beyond[edges_.continues[edge][place < 0.5 ? 0 : 1]].edge < 0;
 }
 
 bool EdgeLines::cuts_off_end(int edge, double place, int by, double within) const {
   const auto direction = [&](int of) -> geom::Vec3 {
-    const auto& [a, b] = work_.edges[of].nodes;
+    const auto& [a, b] = edges_.all[of].nodes;
     return place_of(model_, state_, b) - place_of(model_, state_, a);
   };
   const geom::Vec3 along = direction(edge), across = direction(by).normalized();
@@ -121,11 +122,11 @@ bool EdgeLines::cuts_off_end(int edge, double place, int by, double within) cons
 
 bool EdgeLines::touched_around(int e, int f) const {
   const auto touched = [&](int edge) {
-    if (work_.edge_touched[edge])
+    if (touched_.edges[edge])
       return true;
-    for (const int begin : work_.edge_ends[edge])
-      for (const int* other = &work_.edges_at[begin]; *other >= 0; ++other)
-        if (work_.edge_touched[*other])
+    for (const int begin : edges_.ends[edge])
+      for (const int* other = &edges_.at_end[begin]; *other >= 0; ++other)
+        if (touched_.edges[*other])
           return true;
     return false;
   };
@@ -133,8 +134,8 @@ bool EdgeLines::touched_around(int e, int f) const {
 }
 
 int EdgeLines::edge_with(int id) const {
-  for (int e = work_.edge_begin[id / 3]; e < work_.edge_begin[id / 3 + 1]; ++e)
-    if (work_.edges[e].id() == id)
+  for (int e = edges_.begin[id / 3]; e < edges_.begin[id / 3 + 1]; ++e)
+    if (edges_.all[e].id() == id)
       return e;
   return -1;
 }
@@ -145,7 +146,7 @@ bool EdgeLines::carries_at(int triangle, int corner, const geom::Vec3& spring, c
   const int node = surface_.original[from.nodes[corner]];
   const auto block_of = [&](int id) { return surface_.triangles[id / 3].block; };
   const auto direction = [&](int edge) -> geom::Vec3 { // from the node
-    const auto& [a, b] = work_.edges[edge].nodes;
+    const auto& [a, b] = edges_.all[edge].nodes;
     const geom::Vec3 along = (place_of(model_, state_, b) - place_of(model_, state_, a)).normalized();
     return surface_.original[a] == node ? along : geom::Vec3(-along);
   };
@@ -162,7 +163,7 @@ bool EdgeLines::carries_at(int triangle, int corner, const geom::Vec3& spring, c
     const int e = edge_with(own), f = edge_with(other);
     if (e < 0 || f < 0)
       return false;
-    const auto& [a, b] = work_.edges[e].nodes;
+    const auto& [a, b] = edges_.all[e].nodes;
     const int end = surface_.original[a] == node ? 0 : 1;
     if (surface_.original[end == 0 ? a : b] != node || !goes_on_and_in(e, end))
       return false;
@@ -179,7 +180,7 @@ bool EdgeLines::carries_at(int triangle, int corner, const geom::Vec3& spring, c
 }
 
 const Contact* EdgeLines::contact_of(int e, int f) const {
-  const ContactEdge &source = work_.edges[std::min(e, f)], &target = work_.edges[std::max(e, f)];
+  const ContactEdge &source = edges_.all[std::min(e, f)], &target = edges_.all[std::max(e, f)];
   Contact like(Contact::edge, source.id());
   like.fragment = source.triangles[1];
   like.target = target.id();
@@ -189,12 +190,12 @@ const Contact* EdgeLines::contact_of(int e, int f) const {
 }
 
 NearestOfEdges EdgeLines::nearest(int e, int f) const {
-  return nearest_of_edges(model_, state_, work_.edges[e], work_.edges[f]);
+  return nearest_of_edges(model_, state_, edges_.all[e], edges_.all[f]);
 }
 
 template <typename Does>
 bool EdgeLines::any_next(int edge, int end, const Does& does) const {
-  for (const EdgeBeyond* next = &work_.edges_beyond[work_.edge_continues[edge][end]]; next->edge >= 0; ++next)
+  for (const EdgeBeyond* next = &edges_.beyond[edges_.continues[edge][end]]; next->edge >= 0; ++next)
     if (does(next->edge, next->direction))
       return true;
   return false;
@@ -212,13 +213,13 @@ bool EdgeLines::goes_on(int edge, double place, int other) const {
              return false;
            const auto [source, target] = std::minmax(next, other);
            const auto touch =
-               touch_of(model_, state_, work_.edges[source], work_.edges[target], nearest(source, target));
+               touch_of(model_, state_, edges_.all[source], edges_.all[target], nearest(source, target));
            return touch && touch->depth > 0;
          });
 }
 
 bool EdgeLines::far_from_ends(int edge, double place, double distance) const {
-  const auto& [a, b] = work_.edges[edge].nodes;
+  const auto& [a, b] = edges_.all[edge].nodes;
   return std::min(place, 1 - place) * (place_of(model_, state_, b) - place_of(model_, state_, a)).norm() >
          reach_of_ends * distance;
 }
@@ -228,7 +229,7 @@ bool EdgeLines::nearer(int e, int f, const NearestOfEdges& here, int than_e, int
   if (e == f)
     return false;
   const double distance = here.way.norm(), other = than.way.norm();
-  const int block = surface_.triangles[work_.edges[e].triangles[0]].block;
+  const int block = surface_.triangles[edges_.all[e].triangles[0]].block;
   const double same = same_distance * surface_.usual_height[block];
   if (std::abs(distance - other) > same)
     return distance < other;

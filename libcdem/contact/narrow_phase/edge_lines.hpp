@@ -6,7 +6,7 @@
 // crossings.
 #pragma once
 
-#include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/data/surface_edges.hpp"
 #include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libcdem/state/state.hpp"
 
@@ -16,7 +16,7 @@ namespace cdem {
 
 class EdgeLines {
 public:
-  EdgeLines(const Model&, const State&, const ContactWork&);
+  EdgeLines(const Model&, const State&, const SurfaceEdges&, const EdgesTouched&);
 
   // Contact of two edges, by their numbers, e < f. None if they do not touch, if one ends at the nearest points and its
   // chain does not continue, or if a pair of the same crossing is nearer: a pair with one of the two edges, touching or
@@ -64,7 +64,8 @@ private:
   const Model& model_;
   const ContactSurface& surface_;
   const State& state_;
-  const ContactWork& work_;
+  const SurfaceEdges& edges_;
+  const EdgesTouched& touched_;
   std::vector<Contact>::const_iterator contacts_; // the first of two edges before the step
 };
 

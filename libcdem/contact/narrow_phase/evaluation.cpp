@@ -22,15 +22,15 @@ constexpr double reach_over_depth = 1.5;
 Evaluation::Evaluation(const Model& model, const State& state, const ContactWork& work, Contact::Kind kind,
                        ContactChunk& out)
     : model_(model), surface_(model.surface), state_(state), work_(work), kind_(kind), out_(out),
-      lines_(model, state, work), old_(state.contacts.end()) {}
+      lines_(model, state, work.edges, work.edges_touched), old_(state.contacts.end()) {}
 
 void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   go_to(3 * row.source);
   const std::size_t contacts = out_.contacts.size(), forces = out_.forces.size();
   const ContactSums sums = out_.sums;
-  const bool all = row.reach == 0 || row.several_movers || work_.looks_at_all;
+  const bool all = row.reach == 0 || row.several_movers || work_.options.looks_at_all;
   const auto shallow = static_cast<float>(
-      std::min(work_.shallow[surface_.triangles[row.source].block], work_.shallow[row.block]));
+      std::min(work_.sizes.shallow[surface_.triangles[row.source].block], work_.sizes.shallow[row.block]));
   row.reach = std::max(row.reach, shallow);
   double deepest = narrow_phase(row, candidates, all);
   while (deepest > row.reach) {
@@ -49,24 +49,25 @@ const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
                                 : std::pair(block_a, block_b);
   if (law_.between != between) {
     const Joint* const joint = contact_joint(model_, block_a, block_b);
-    law_ = {between, joint, std::min(geom::portable::tan(joint->friction_angle), work_.most_friction)};
+    law_ = {between, joint,
+            std::min(geom::portable::tan(joint->friction_angle), work_.options.most_friction)};
   }
   return law_;
 }
 
 double Evaluation::moved(const ContactRow& row) const {
-  return row.pair >= 0 ? work_.rigid_pairs[row.pair].moved : travelled(work_, row);
+  return row.pair >= 0 ? work_.rigid_pairs.all[row.pair].moved : travelled(work_, row);
 }
 
 double Evaluation::from(const ContactRow& row) const {
-  return row.pair >= 0 ? work_.rigid_pairs[row.pair].from : moved(row);
+  return row.pair >= 0 ? work_.rigid_pairs.all[row.pair].from : moved(row);
 }
 
 double Evaluation::moved_in_step(const ContactRow& row) const {
   double of_targets = 0;
   each_mover(work_, row,
-             [&](int mover) { of_targets = std::max(of_targets, work_.last_displacement[mover]); });
-  return work_.last_displacement[row.source_mover] + of_targets;
+             [&](int mover) { of_targets = std::max(of_targets, work_.motion.last_displacement[mover]); });
+  return work_.motion.last_displacement[row.source_mover] + of_targets;
 }
 
 void Evaluation::go_to(int source) {
@@ -142,9 +143,11 @@ Nearest Evaluation::nearest_on(int target, const geom::Vec3& spring, double give
 bool Evaluation::stand_outside(ContactRow& row, const Springs& spring) {
   const bool of_pair = row.pair >= 0;
   const std::array<int, 4>& of_tet = work_.movers.triangles_of_tet[row.mover];
-  const int* const planes = of_pair ? work_.planes[row.mover].data() : of_tet.data();
-  const int count = of_pair ? static_cast<int>(work_.planes[row.mover].size()) : of_tet[0] < 0 ? 0 : 4;
-  if (count == 0 || work_.looks_at_all)
+  const int* const planes = of_pair ? work_.rigid_pairs.planes[row.mover].data() : of_tet.data();
+  const int count = of_pair         ? static_cast<int>(work_.rigid_pairs.planes[row.mover].size())
+                    : of_tet[0] < 0 ? 0
+                                    : 4;
+  if (count == 0 || work_.options.looks_at_all)
     return false;
   const auto outside = [&](int plane) { // m, of each
     const Facet& y = facet(planes[plane]);
@@ -180,8 +183,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
                               std::array<Nearest, 3>& nearest) {
   const double moved = this->moved(row), from = this->from(row);
   const double gives = gives_of(model_, work_, row.block, row.mover);
-  const bool of_tets = of_several_tets(model_, work_, row.mover),
-             gives_way = held_by_bonds(model_, work_, row.mover);
+  const bool of_tets = of_several_tets(model_, work_.movers, row.mover),
+             gives_way = held_by_bonds(model_, work_.movers, row.mover);
   std::array<NearestOfTets, 3> of_surface;
   std::array<Distances, 3> distances;
   for (std::vector<Nearest>& each : awake_)
@@ -262,11 +265,11 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
 double Evaluation::begins_at(int source, int target, double shallow) const {
   const auto has_broken = [&](int triangle) {
     const int block = surface_.triangles[triangle].block;
-    return work_.freed[block] != 0 || work_.broken[block] != 0;
+    return work_.sizes.freed[block] != 0 || work_.movers.broken[block] != 0;
   };
-  const bool any_depth = work_.any_depth_begins ||
-                         (work_.any_depth_of_broken && (has_broken(source) || has_broken(target))) ||
-                         work_.changed[source] != Change::none || work_.changed[target] != Change::none;
+  const bool any_depth =
+      work_.any_depth_begins || (work_.any_depth_of_broken && (has_broken(source) || has_broken(target))) ||
+      work_.movers.changed[source] != Change::none || work_.movers.changed[target] != Change::none;
   return any_depth ? std::numeric_limits<double>::infinity() : shallow;
 }
 
@@ -282,7 +285,7 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   bool looks = all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end());
   if (!looks) {
     const double gives = gives_of(model_, work_, row.block, row.mover);
-    const bool of_tets = of_several_tets(model_, work_, row.mover);
+    const bool of_tets = of_several_tets(model_, work_.movers, row.mover);
     row.recheck_distance = 0;
     for (int corner = 0; corner < 3; ++corner)
       if (row.known_target[corner] >= 0) {
@@ -310,21 +313,21 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       sleeps = 0;
       continue;
     }
-    if (!found.in_tet && held_by_bonds(model_, work_, work_.movers.of_triangle[found.target]) &&
-        !stands_within(model_, state_, work_, found.target, found.place, spring[corner])) {
+    if (!found.in_tet && held_by_bonds(model_, work_.movers, work_.movers.of_triangle[found.target]) &&
+        !stands_within(model_, state_, work_.tets_beyond, found.target, found.place, spring[corner])) {
       sleeps = 0;
       continue;
     }
-    const double shallow =
-        std::min(work_.shallow[source.block], work_.shallow[surface_.triangles[found.target].block]);
+    const double shallow = std::min(work_.sizes.shallow[source.block],
+                                    work_.sizes.shallow[surface_.triangles[found.target].block]);
     const auto sleep_without_contact = [&] { // too deep to begin, by the motion of the step too
       sleeps = std::min(
           sleeps, rounded_down(from(row) + std::max(0.0, 0.5 * (std::sqrt(found.distance2) - shallow))));
       sleep(corner);
     };
     const double reach = row.reach + ways;
-    const double covered = 2 * depth_limit(work_, source, surface_.triangles[found.target]);
-    const int fragment = work_.fragment[found.target];
+    const double covered = 2 * depth_limit(work_.sizes, source, surface_.triangles[found.target]);
+    const int fragment = work_.movers.fragment_of_triangle[found.target];
     // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep. But a contact
     // goes on at any depth, as one that leaves a part of the fragment where another part overlaps it. All are looked at then.
     const bool too_deep = !all && found.distance2 > reach * reach;
@@ -352,7 +355,7 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
 bool Evaluation::edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
                                  int target) const {
   const std::vector<int>& mover = work_.movers.of_triangle;
-  return work_.mover_edges_touched[mover[source]] && work_.mover_edges_touched[mover[target]] &&
+  return work_.edges_touched.movers[mover[source]] && work_.edges_touched.movers[mover[target]] &&
          lines_.carries_at(source, corner, spring, normal, surface_.triangles[target].block);
 }
 
@@ -361,7 +364,7 @@ bool Evaluation::edge_carries_at(int source, int corner, const geom::Vec3& sprin
 // face that they slide on.
 bool Evaluation::at_a_step(const ContactTriangle& from, const geom::Vec3& outward, const geom::Vec3& spring,
                            const geom::Vec3& normal, int target) const {
-  for (const int beyond : work_.beyond_edge[target]) {
+  for (const int beyond : work_.edges.triangle_beyond[target]) {
     if (beyond < 0)
       continue;
     const ContactTriangle& face = surface_.triangles[beyond];

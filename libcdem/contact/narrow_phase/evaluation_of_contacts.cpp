@@ -22,7 +22,7 @@ Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, c
     local += weights[i] * weights[i] / moving_mass(model_, state_)[nodes[i]] *
              std::max(1.0, model_.node_mass[nodes[i]] / corner);
   }
-  if (work_.last_displacement[block] == 0)
+  if (work_.motion.last_displacement[block] == 0)
     return {velocity}; // held: it does not turn round
   const Block& b = model_.blocks[block];
   const double whole = work_.block_forces[block] / (b.mass.volume * density);
@@ -89,7 +89,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   out_.forces.push_back(force);
   // Not what was found so deep.
   ContactSums& sums = out_.sums;
-  const double pressed = c.effective_penetration(), part = pressed / depth_limit(work_, from, to);
+  const double pressed = c.effective_penetration(), part = pressed / depth_limit(work_.sizes, from, to);
   sums.depth = std::max(sums.depth, pressed);
   sums.depth_over_height = std::max(sums.depth_over_height, pressed / std::min(from.height, to.height));
   if (part > sums.deepest) {

@@ -93,11 +93,11 @@ bool Evaluation::moves_as_one(const ContactEdge& edge) const {
 }
 
 void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
-  const ContactEdge& e = work_.edges[row.source];
+  const ContactEdge& e = work_.edges.all[row.source];
   const ContactTriangle& from = surface_.triangles[e.triangles[0]];
-  const bool touched = work_.mover_edges_touched[row.source_mover] && work_.mover_edges_touched[row.mover];
+  const bool touched = work_.edges_touched.movers[row.source_mover] && work_.edges_touched.movers[row.mover];
   const double moved = this->moved(row), from_here = this->from(row);
-  const bool skips = !work_.looks_at_all;
+  const bool skips = !work_.options.looks_at_all;
   if (skips && moved < row.recheck_distance && !(row.hindered && touched))
     return;
   row.hindered = false;
@@ -113,10 +113,10 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
       row.hindered = row.hindered || hindered;
       continue;
     }
-    const ContactEdge& f = work_.edges[target];
+    const ContactEdge& f = work_.edges.all[target];
     const ContactTriangle& to = surface_.triangles[f.triangles[0]];
     const NearestOfEdges nearest = nearest_of_edges(model_, state_, e, f);
-    const double distance = nearest.way.norm(), limit = edge_depth(work_, from, to);
+    const double distance = nearest.way.norm(), limit = edge_depth(work_.sizes, from, to);
     const double apart = distance - std::max(limit, static_cast<double>(row.reach));
     candidate.recheck_distance = rounded_down(from_here + std::max(0.0, apart));
     candidate.springs = 0;
@@ -153,7 +153,7 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
 
 void Evaluation::add_contact(int source, int target, const NearestOfEdges& nearest, const EdgeTouch& touch,
                              bool may_begin) {
-  const ContactEdge &e = work_.edges[source], &f = work_.edges[target];
+  const ContactEdge &e = work_.edges.all[source], &f = work_.edges.all[target];
   const ContactTriangle &from = surface_.triangles[e.triangles[0]], &to = surface_.triangles[f.triangles[0]];
   Contact c(Contact::edge, e.id());
   c.fragment = e.triangles[1];

@@ -12,8 +12,8 @@ namespace {
 class PlanesOfPair {
 public:
   PlanesOfPair(const Model& model, const State& state, const ContactWork& work, const RigidPair& pair)
-      : model_(model), state_(state), a_(pair.a), b_(pair.b), of_a_(work.planes[pair.a]),
-        of_b_(work.planes[pair.b]),
+      : model_(model), state_(state), a_(pair.a), b_(pair.b), of_a_(work.rigid_pairs.planes[pair.a]),
+        of_b_(work.rigid_pairs.planes[pair.b]),
         slack_(std::max(slack_of(model, work, pair.a), slack_of(model, work, pair.b))) {}
 
   int count() const { return static_cast<int>(of_a_.size() + of_b_.size()); }

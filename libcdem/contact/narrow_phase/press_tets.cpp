@@ -197,7 +197,7 @@ private:
     if (block_ != a.block) {
       block_ = a.block;
       joint_ = contact_joint(model_, block_, block_);
-      tan_friction_ = std::min(geom::portable::tan(joint_->friction_angle), work_.most_friction);
+      tan_friction_ = std::min(geom::portable::tan(joint_->friction_angle), work_.options.most_friction);
     }
     return tet_pair_law(model_, *joint_, tan_friction_, block_, a.size, b.size);
   }

@@ -14,7 +14,7 @@ namespace {
 // What a rank reads of surfaces: nodes of triangles and of the tets behind them.
 class NodesRead {
 public:
-  NodesRead(const Model& model, const ContactWork& work) : model_(model), work_(work), s_(model.surface) {}
+  NodesRead(const Model& model, const Movers& movers) : model_(model), movers_(movers), s_(model.surface) {}
 
   void add_block(int block) {
     for (int node = model_.blocks[block].node_begin; node < model_.blocks[block].node_end; ++node)
@@ -22,7 +22,7 @@ public:
   }
   void add_surface(int block) {
     for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t)
-      if (work_.active[t])
+      if (movers_.active[t])
         add_triangle(t);
   }
   std::vector<std::int32_t> take() { return std::move(nodes_); }
@@ -36,7 +36,7 @@ private:
   }
 
   const Model& model_;
-  const ContactWork& work_;
+  const Movers& movers_;
   const ContactSurface& s_;
   std::vector<std::int32_t> nodes_;
 };
@@ -44,24 +44,22 @@ private:
 } // namespace
 
 void begin_search(State& state, ContactWork& work) {
-  if (!work.shared)
-    return;
   work.shared->gather_surfaces(state);
   work.shared->gather_contacts(state);
 }
 
 void read_nodes_of_rows(const Model& model, ContactWork& work) {
-  if (!work.shared)
+  if (work.shared->alone())
     return;
   const auto blocks = static_cast<int>(model.blocks.size());
   std::vector<char> read(model.blocks.size(), 0);
-  for (const std::vector<ContactRow>& rows : work.rows)
-    for (const ContactRow& row : rows) {
+  for (const ContactRows& rows : work.rows)
+    for (const ContactRow& row : rows.all) {
       const auto mark = [&](int mover) { read[work.movers.block[mover]] = 1; };
       mark(row.source_mover);
       each_mover(work, row, mark);
     }
-  NodesRead nodes(model, work);
+  NodesRead nodes(model, work.movers);
   std::vector<int> rigid;
   for (int b = 0; b < blocks; ++b) {
     const Block& block = model.blocks[b];
@@ -72,7 +70,8 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
         rigid.push_back(block.rigid);
       continue;
     }
-    if (work.restitution || touches_itself(model, work, b)) // each rank finds all its pairs of tetrahedra
+    if (work.restitution ||
+        touches_itself(model, work.movers, b)) // each rank finds all its pairs of tetrahedra
       nodes.add_block(b);
     else if (read[b])
       nodes.add_surface(b);
@@ -82,7 +81,7 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
 }
 
 void keep_own_contacts(const Model& model, State& state, ContactWork& work) {
-  if (!work.shared || !work.shared->contacts_whole())
+  if (work.shared->alone() || !work.shared->contacts_whole())
     return;
   const auto of_others = [&](const Contact& c) {
     return is_told_by_sums(model, c) && !keeps(model, work, c);

@@ -44,17 +44,17 @@ double wake_due(const RigidPair& pair, std::size_t p, RowsAsleep& rows) {
 
 // Semi-springs of two blocks that a plane parts touch nothing. Rows of edges tell by their fans.
 void wake_pair(const Model& model, const State& state, ContactWork& work, std::size_t p) {
-  RigidPair& pair = work.rigid_pairs[p];
-  update_motion(work, pair);
+  RigidPair& pair = work.rigid_pairs.all[p];
+  update_motion(work.rigid_pairs, pair);
   if (pair.moved >= pair.next[Contact::spring]) {
     const double apart = parted_by(model, state, work, pair);
     pair.next[Contact::spring] =
-        apart > 0 ? pair.from + apart : wake_due(pair, p, work.asleep[Contact::spring]);
+        apart > 0 ? pair.from + apart : wake_due(pair, p, work.rows[Contact::spring].asleep);
   }
   if (pair.moved >= pair.next[Contact::edge])
-    pair.next[Contact::edge] = wake_due(pair, p, work.asleep[Contact::edge]);
+    pair.next[Contact::edge] = wake_due(pair, p, work.rows[Contact::edge].asleep);
   const double left = std::min(pair.next[0], pair.next[1]) - pair.moved;
-  pair.look_at = left > 0 ? path_of(work, pair) + left : 0;
+  pair.look_at = left > 0 ? path_of(work.rigid_pairs, pair) + left : 0;
 }
 
 // Edges that sleep only as long as no contact stands around.
@@ -62,12 +62,12 @@ void wake_hindered(ContactWork& work, RowsAsleep& rows) {
   for (std::size_t chunk = 0; chunk < rows.hindered.size(); ++chunk)
     for (std::uint64_t bits = rows.hindered[chunk]; bits != 0; bits &= bits - 1) {
       const std::size_t r = chunk * contact_rows_per_chunk + static_cast<std::size_t>(__builtin_ctzll(bits));
-      if (!work.mover_edges_touched[rows.source_mover[r]] || !work.mover_edges_touched[rows.mover[r]])
+      if (!work.edges_touched.movers[rows.source_mover[r]] || !work.edges_touched.movers[rows.mover[r]])
         continue;
       rows.awake[chunk] |= bits & -bits;
-      if (const int p = work.rows[Contact::edge][r].pair; p >= 0) {
-        RigidPair& pair = work.rigid_pairs[p];
-        update_motion(work, pair);
+      if (const int p = work.rows[Contact::edge].all[r].pair; p >= 0) {
+        RigidPair& pair = work.rigid_pairs.all[p];
+        update_motion(work.rigid_pairs, pair);
         pair.next[Contact::edge] = pair.look_at = 0; // it may sleep less long than before
       }
     }
@@ -84,20 +84,22 @@ void wake_all(RowsAsleep& rows) {
 } // namespace
 
 void find_awake(const Model& model, const State& state, ContactWork& work) {
-  for (RowsAsleep& rows : work.asleep) {
+  for (ContactRows& of_kind : work.rows) {
+    RowsAsleep& rows = of_kind.asleep;
     rows.awake.resize((rows.mover.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk);
     // Those of which the two movers have travelled by the recheck distance together: a bit each.
-    simd::best<awake_kernel>(work.travelled.data(), rows.recheck_distance.data(), rows.source_mover.data(),
-                             rows.mover.data(), static_cast<std::int64_t>(rows.mover.size()),
-                             rows.awake.data());
+    simd::best<awake_kernel>(work.motion.travelled.data(), rows.recheck_distance.data(),
+                             rows.source_mover.data(), rows.mover.data(),
+                             static_cast<std::int64_t>(rows.mover.size()), rows.awake.data());
   }
-  for (std::size_t p = 0; p < work.rigid_pairs.size(); ++p)
-    if (work.looks_at_all || path_of(work, work.rigid_pairs[p]) >= work.rigid_pairs[p].look_at)
+  for (std::size_t p = 0; p < work.rigid_pairs.all.size(); ++p)
+    if (work.options.looks_at_all ||
+        path_of(work.rigid_pairs, work.rigid_pairs.all[p]) >= work.rigid_pairs.all[p].look_at)
       wake_pair(model, state, work, p);
-  for (RowsAsleep& rows : work.asleep) {
-    wake_hindered(work, rows);
-    if (work.looks_at_all)
-      wake_all(rows);
+  for (ContactRows& rows : work.rows) {
+    wake_hindered(work, rows.asleep);
+    if (work.options.looks_at_all)
+      wake_all(rows.asleep);
   }
 }
 
@@ -107,10 +109,12 @@ bool sleeps_on(const ContactWork& work, const ContactRow& row, float& recheck_di
   if (row.allowed <= 0)
     return false;
   constexpr double worth_while = 0.05; // of what it was allowed
-  const double left = row.allowed - gone_since(work, row.source_mover, row.mover, row.drifts, row.swings);
+  const double left =
+      row.allowed - gone_since(work.motion, row.source_mover, row.mover, row.drifts, row.swings);
   if (left < worth_while * row.allowed)
     return false;
-  recheck_distance = rounded_down(work.travelled[row.source_mover] + work.travelled[row.mover] + left);
+  recheck_distance =
+      rounded_down(work.motion.travelled[row.source_mover] + work.motion.travelled[row.mover] + left);
   return true;
 }
 
@@ -120,13 +124,13 @@ void fall_asleep(const ContactWork& work, int blocks, ContactRow& row, float& re
   row.allowed = 0;
   if (a < blocks || b < blocks)
     return;
-  const double left = row.recheck_distance - work.travelled[a] - work.travelled[b];
+  const double left = row.recheck_distance - work.motion.travelled[a] - work.motion.travelled[b];
   if (left <= 0 || std::isinf(left))
     return;
   row.allowed = rounded_down(left);
-  row.swings = static_cast<float>(work.swing[a] + work.swing[b]);
+  row.swings = static_cast<float>(work.motion.swing[a] + work.motion.swing[b]);
   for (int axis = 0; axis < 3; ++axis)
-    row.drifts[axis] = static_cast<float>(work.drift[b][axis] - work.drift[a][axis]);
+    row.drifts[axis] = static_cast<float>(work.motion.drift[b][axis] - work.motion.drift[a][axis]);
 }
 
 } // namespace cdem

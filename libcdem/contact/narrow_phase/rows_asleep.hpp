@@ -18,7 +18,7 @@ void each_mover(const ContactWork& work, const ContactRow& row, const Visit& vis
   }
   int last = -1; // triangles stand by block
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
-    const int mover = work.movers.of_triangle[work.candidates[Contact::spring][i].target];
+    const int mover = work.movers.of_triangle[work.rows[Contact::spring].candidates[i].target];
     if (mover != last)
       visit(mover);
     last = mover;
@@ -28,8 +28,8 @@ void each_mover(const ContactWork& work, const ContactRow& row, const Visit& vis
 // m, since the search: what recheck distances of a row of no rigid pair are compared with. No target comes nearer to the
 // source than by its increase.
 inline double travelled(const ContactWork& work, const ContactRow& row) {
-  double sum = work.travelled[row.source_mover];
-  each_mover(work, row, [&](int mover) { sum += work.travelled[mover]; });
+  double sum = work.motion.travelled[row.source_mover];
+  each_mover(work, row, [&](int mover) { sum += work.motion.travelled[mover]; });
   return sum;
 }
 

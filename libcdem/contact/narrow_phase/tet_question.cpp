@@ -19,7 +19,7 @@ bool goes_on(const TetContacts& of, const Contact& c, bool forgets) {
 TetQuestion tet_question(const State& state, ContactWork& work) {
   TetContacts& of = *work.tet_contacts;
   find_awake(of.paths, of.near, of.awake);
-  if (work.looks_at_all)
+  if (work.options.looks_at_all)
     for (std::size_t i = 0; i < of.near.count(); ++i)
       of.awake[i / contact_rows_per_chunk] |= std::uint64_t{1} << (i % contact_rows_per_chunk);
   TetQuestion question;

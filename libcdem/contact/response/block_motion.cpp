@@ -48,7 +48,7 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
       else if (keeps(model, work, c))
         on_rigid[rigid].add(force);
   }
-  if (work.shared && !on_rigid.empty()) {
+  if (!work.shared->alone() && !on_rigid.empty()) {
     Pack own;
     for (const ExactSum& sum : on_rigid)
       sum.tell(own);
@@ -67,7 +67,7 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
 void find_block_motions(const Model& model, const State& state, ContactWork& work, int threads) {
   work.block_motion.assign(model.blocks.size(), {});
   for_chunks(static_cast<std::int64_t>(model.blocks.size()), threads, [&](std::int64_t b) {
-    if (model.blocks[b].meshed && !work.broken[b] && work.block_forces[b] > 0)
+    if (model.blocks[b].meshed && !work.movers.broken[b] && work.block_forces[b] > 0)
       work.block_motion[b] = motion_of(model, state, model.blocks[b]);
   });
 }

@@ -63,16 +63,16 @@ double for_rigid(double safety) {
 
 } // namespace
 
-double contact_time_step(const Model& model, const State& state, const ContactWork& own,
+double contact_time_step(const Model& model, const State& state, const ContactLoads& loads,
                          const ContactStep& step) {
   double least = std::numeric_limits<double>::infinity();
   const std::vector<double>& mass = moving_mass(model, state);
   double fastest = 0; // 1/s2, of nodes without damping: one root is enough
-  for (const auto& [node, block] : own.touched) {
+  for (const auto& [node, block] : loads.touched) {
     const double beta =
         std::max(step.joint_damping,
                  step.damped ? model.bodies[model.blocks[block].body].material.stiffness_damping : 0);
-    const double frequency2 = (step.row_sums[node] + own.stiffness[node]) / mass[node];
+    const double frequency2 = (step.row_sums[node] + loads.stiffness[node]) / mass[node];
     if (beta == 0)
       fastest = std::max(fastest, frequency2);
     else
@@ -81,7 +81,7 @@ double contact_time_step(const Model& model, const State& state, const ContactWo
   }
   if (fastest > 0)
     least = std::min(least, step.safety * stable_time_step(fastest, 0));
-  for (const ContactOnRigid& body : own.on_rigid)
+  for (const ContactOnRigid& body : loads.on_rigid)
     least = std::min(least, for_rigid(step.safety) * stable_time_step(body.frequency2, 0));
   return least;
 }
@@ -182,7 +182,7 @@ std::vector<double> impact_frequencies2(const Model& model) {
   return frequencies2;
 }
 
-double flight_time_step(const Model& model, const State& state, const ContactWork& own,
+double flight_time_step(const Model& model, const State& state, const ContactLoads& loads,
                         const Flight& flight) {
   double flying = 0, any = 0; // 1/s2, the largest
   for (std::size_t i = 0; i < model.rigid.size(); ++i) {
@@ -193,7 +193,7 @@ double flight_time_step(const Model& model, const State& state, const ContactWor
     const double spin = vec(state.rigid[i].angular_momentum).norm() / model.rigid[i].principal.minCoeff();
     const double speed = vec(state.rigid[i].velocity).norm() + spin * model.blocks[model.rigid[i].block].size;
     // Pressed by its weight it sinks in by g / w^2 and moves at g / w at most.
-    if (!own.on_rigid[i].touches && speed * std::sqrt(frequency2) > flight.gravity)
+    if (!loads.on_rigid[i].touches && speed * std::sqrt(frequency2) > flight.gravity)
       flying = std::max(flying, frequency2);
   }
   return flying > 0 ? most_of_impact * stable_time_step(flying + any, 0)

@@ -16,7 +16,7 @@ struct ContactStep {
   double joint_damping = 0;            // s, of springs of interfaces that are contacts
   double safety = 1;
 };
-double contact_time_step(const Model&, const State&, const ContactWork&, const ContactStep&);
+double contact_time_step(const Model&, const State&, const ContactLoads&, const ContactStep&);
 
 // s, likewise, of rigid bodies before any contact, if a fiftieth of their surface comes into contact: a step that lets
 // no more than a few contacts close at once. contact_time_step shortens it when more do. Infinite without rigid bodies.
@@ -48,7 +48,7 @@ struct Flight {
   double gravity = 0;                                 // m/s2
 };
 // Infinite where no rigid body that moves is free of contacts, or all of those hop lower than their weight presses them together.
-double flight_time_step(const Model&, const State&, const ContactWork&, const Flight&);
+double flight_time_step(const Model&, const State&, const ContactLoads&, const Flight&);
 
 // Adds to the row sums what contacts may at most add at the surface, when all of it is pressed by its like, N/m.
 void add_contact_row_sums(const Model&, std::vector<double>& row_sums);

@@ -1,8 +1,7 @@
-// A stage among several ranks: which chunks are whose, who keeps what of the State, when all of it is gathered.
+#include "libcdem/step/stage_shares.hpp"
+
 #include "libcdem/parallel/residency.hpp"
 #include "libcdem/ranks/parked_model.hpp"
-#include "libcdem/results/earlier_log.hpp"
-#include "libcdem/step/stage.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -50,26 +49,29 @@ std::vector<std::int32_t> nodes_of_bolts(const ResolvedConditions& r) {
 
 } // namespace
 
-void Stage::share() {
+StageShares::StageShares(const StageContext& context, Workspace& work) : context_(context), work_(work) {
+  warn_of_idle();
+}
+
+void StageShares::share(const std::vector<Node>* moving) {
   if (ranks().alone()) {
-    work.shared = std::make_shared<SharedState>(context_.model);
+    work_.share(std::make_shared<SharedState>(context_.model));
     return;
   }
   if (gave_back_) { // loads on nodes that others owned
     ResolvedConditions whole = resolve(context_.model, context_.state, context_.conditions);
-    work.resolved.external = std::move(whole.external);
-    work.resolved.constant = std::move(whole.constant);
-    update_external(work.resolved, context_.state.time, moving());
+    work_.resolved.external = std::move(whole.external);
+    work_.resolved.constant = std::move(whole.constant);
+    update_external(work_.resolved, context_.state.time, moving);
     gave_back_ = false;
   }
   const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
   const std::vector<double> loads = chunk_loads(context_.model, context_.state, all);
-  work.shared = std::make_shared<SharedState>(context_.model, nodes_of_bolts(work.resolved), loads);
-  work.contact.shared = work.shared.get();
-  loads_ = in_words(shares_of_load(loads, work.part().chunk_begin));
+  work_.share(std::make_shared<SharedState>(context_.model, nodes_of_bolts(work_.resolved), loads));
+  loads_ = in_words(shares_of_load(loads, work_.part().chunk_begin));
 }
 
-void Stage::warn_of_idle_ranks() const {
+void StageShares::warn_of_idle() const {
   static bool told = false; // once is enough
   const auto chunks = static_cast<int>(context_.model.chunks.size()), idle = ranks().size() - chunks;
   if (told || idle <= 0)
@@ -80,11 +82,11 @@ void Stage::warn_of_idle_ranks() const {
                   chunks, chunks == 1 ? "" : "s", ranks().size(), idle, idle == 1 ? "has" : "have"));
 }
 
-// A body that breaks on one side costs more there. What is read of others is found anew with the contacts.
-void Stage::share_anew() {
+// A body that breaks on one side costs more there.
+bool StageShares::is_uneven() {
   if (ranks().alone())
-    return;
-  const Partition& part = work.part();
+    return false;
+  const Partition& part = work_.part();
   const std::vector<double> own = chunk_loads(context_.model, context_.state, part.chunks());
   std::vector<double> loads(context_.model.chunks.size());
   std::copy(own.begin(), own.end(), loads.begin() + part.chunks().begin);
@@ -94,64 +96,43 @@ void Stage::share_anew() {
   ranks().share(loads.data(), bytes);
   loads_ = in_words(shares_of_load(loads, part.chunk_begin));
   const double now = imbalance(loads, part.chunk_begin);
-  if (now < uneven || imbalance(loads, even_shares(loads, part.size)) > 0.5 * (1 + now))
-    return;
+  return now >= uneven && imbalance(loads, even_shares(loads, part.size)) <= 0.5 * (1 + now);
+}
+
+// What is read of others is found anew with the contacts.
+void StageShares::share_anew(const std::vector<Node>* moving, const StageStep& here) {
   const std::string before = loads_;
-  see_whole();
-  work.shared->shares().gather_points(work.bond.spring_force);
-  work.shared->shares().gather_points(work.bond.stretch);
-  work.shared->shares().gather_points(work.bond.viscous);
-  if (carried)
-    work.shared->shares().gather_nodes(*carried);
-  share();
-  work.contact.fragments_due = work.contact.all_due = true;
+  share(moving);
+  work_.contact.search.fragments_due = work_.contact.search.all_due = true;
   ++shared_anew_;
   context_.observer.message(
       fmt::format("stage {} {}, step {}: chunks are shared anew, loads of the ranks {} before, {} now",
-                  context_.number, kind_, step, before, loads_));
-  keep_last_good(); // of the share that is this rank's now
+                  here.stage, here.kind, here.step, before, loads_));
 }
 
-void Stage::give_back() {
+void StageShares::give_back() {
   if (ranks().alone() || gave_back_)
     return;
   gave_back_ = true;
-  park(context_.model, work.shared->shares());
-  for (std::vector<Node>* of_nodes : {&work.resolved.external, &work.resolved.constant})
-    release_outside(*of_nodes, work.shared->shares().kept_nodes());
-  release_zeros(work.partial);
-  release_zeros(work.contact.force);
-  release_zeros(work.contact.stiffness);
+  park(context_.model, work_.shared->shares());
+  for (std::vector<Node>* of_nodes : {&work_.resolved.external, &work_.resolved.constant})
+    release_outside(*of_nodes, work_.shared->shares().kept_nodes());
+  release_zeros(work_.partial);
+  release_zeros(work_.contact.loads.force);
+  release_zeros(work_.contact.loads.stiffness);
   trim_heap(); // what building and looking at the whole has left
 }
 
-void Stage::keep_last_good() {
-  good_strain_step_ = work.strain_step;
-  good_breaks_ = context_.log.breaks.size();
-  good_one_way_ = context_.log.one_way;
-  work.shared->keep(context_.state, context_.last_good);
+void StageShares::gather(BondWork& bond) const {
+  for (std::vector<geom::Vec3>* of_points : {&bond.spring_force, &bond.stretch, &bond.viscous})
+    work_.shared->shares().gather_points(*of_points);
 }
 
-void Stage::go_back() {
-  context_.state = context_.last_good;
-  see_whole();
-  work.strain_step = good_strain_step_;
-  cdem::go_back(context_.log, context_.state.step, good_breaks_, good_one_way_);
-  work.near.forget();
-  contacts_.start_anew(context_.model, work.contact, false);
-}
-
-void Stage::see_whole() {
-  work.shared->gather(context_.state);
-}
-
-void Stage::see_surfaces(std::vector<Node>& by_node) {
-  work.shared->gather_surfaces(context_.state);
-  work.shared->shares().gather_nodes(by_node);
-}
-
-bool Stage::left_alone() const {
-  return std::uncaught_exceptions() > exceptions_ && !ranks().all_fail(Ranks::patience);
+void StageShares::add_to(Progress& progress) const {
+  if (shared_anew_ > 0)
+    progress.times = fmt::format("; chunks shared anew: {}", shared_anew_);
+  if (!loads_.empty())
+    progress.note += (progress.note.empty() ? "" : ", ") + ("loads of the ranks " + loads_);
 }
 
 } // namespace cdem

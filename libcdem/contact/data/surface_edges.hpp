@@ -1,0 +1,33 @@
+// The semi-edges of the surfaces as they are now (geometry/semi_edges.hpp).
+#pragma once
+
+#include "libcdem/model/contact_surface.hpp"
+
+namespace cdem {
+
+// An edge in which the line of another continues over one of its ends.
+struct EdgeBeyond {
+  int edge = -1;
+  double direction = 1; // 1 or -1: the line runs along the edge's own direction or against it
+};
+
+// Written by find_semi_edges, when faces have broken.
+struct SurfaceEdges {
+  std::vector<ContactEdge> all; // by id
+  std::vector<int> begin;       // (n_triangles + 1) into `all`, by their first triangle
+  // Per triangle and side of it, from its corner to the next: the triangle beyond the edge there; -1: no edge.
+  std::vector<std::array<int, 3>> triangle_beyond;
+  // Per edge: where the edges of its fragment that meet at its two ends begin in at_end.
+  std::vector<std::array<int, 2>> ends;
+  std::vector<int> at_end; // by end, each list closed by -1
+  // Per edge and end: where the edges in which its line continues begin in `beyond`.
+  std::vector<std::array<int, 2>> continues;
+  std::vector<EdgeBeyond> beyond; // by edge and end, each list closed by -1
+};
+
+// Per edge, and per mover: it had a contact of edges before the step. Written by mark_touched_edges.
+struct EdgesTouched {
+  std::vector<char> edges, movers;
+};
+
+} // namespace cdem
