@@ -18,8 +18,8 @@ using geom::Vec3;
 constexpr double dying = 1.0 / 200, too_little = 1e-6;
 // Work that a preload q may do on its face's sides before it ends, over q^2 / (k A).
 constexpr double pushing = 0.01;
-// A crack ends where less than this part of its strength is asked of it and less than that part of it is damaged.
-constexpr double unloaded = 0.97, hardly_damaged = 0.1;
+// A crack ends where less than this part of its strength is asked of it.
+constexpr double unloaded = 0.97;
 
 Vec3 vec(const CohesiveFace::Vector& v) {
   return {v[0], v[1], v[2]};
@@ -66,13 +66,6 @@ CDEM_INLINE void holding_kernel(const FaceBatch* batches, int faces, const Node*
   }
 }
 
-// All of its faces hold, and no preload acts.
-bool is_calm(const FaceStateBatch& state) {
-  constexpr FaceStateBatch calm{};
-  return std::memcmp(state.stage, calm.stage, sizeof calm.stage) == 0 &&
-         std::memcmp(state.preloaded, calm.preloaded, sizeof calm.preloaded) == 0;
-}
-
 void preload(const FaceBatch& batch, int lane, const FaceMotion& motion, const FaceLaw& law,
              FaceStateBatch& state, CohesiveFace& face, Node* force, FaceSums& sums) {
   bool remains = false;
@@ -102,10 +95,6 @@ SofteningLaw cohesive_law(const Joint& joint, double k) {
   return softening_law(joint, stiffness, stiffness, SofteningBegins::at_strength);
 }
 
-double damage_of(const CohesiveFace& face) {
-  return std::max({face.damage[0], face.damage[1], face.damage[2]});
-}
-
 void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion& motion, const FaceLaw& law,
                           const FaceJoints& joints, bool breaking, FaceStateBatch* state,
                           CohesiveFace* cohesive, Node* force, FaceSums& sums) {
@@ -113,19 +102,20 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
   thread_local std::vector<int> cracking, resumed, others;
   for (std::vector<int>* list : {&cracking, &resumed, &others})
     list->clear();
-  for (int i = 0; i < faces; ++i) {
-    const FaceStateBatch& at = state[i / lanes];
-    if (i % lanes == 0 && is_calm(at)) {
-      i += lanes - 1;
-      continue;
-    }
-    const FaceStage stage = at.stage[i % lanes];
-    if (has_springs(stage))
-      cracking.push_back(i);
-    else if (stage == FaceStage::resumed)
-      resumed.push_back(i);
-    if (stage == FaceStage::parted || (at.preloaded[i % lanes] != 0 && holds(stage)))
-      others.push_back(i);
+  for (int first = 0; first < faces; first += lanes) {
+    const FaceStateBatch& at = state[first / lanes];
+    const unsigned used = (1u << std::min(faces - first, lanes)) - 1,
+                   resume = faces_in(at, FaceStage::resumed),
+                   hold = faces_in(at, FaceStage::holding) | resume,
+                   crack = faces_in(at, FaceStage::cracking) | faces_in(at, FaceStage::separated),
+                   parted = faces_in(at, FaceStage::parted),
+                   preloaded = ~simd::bits_with(at.preloaded, 0) & hold;
+    const auto add = [&](unsigned bits, std::vector<int>& list) {
+      each_lane(bits & used, [&](int lane) { list.push_back(first + lane); });
+    };
+    add(crack, cracking);
+    add(resume, resumed);
+    add(parted | preloaded, others);
   }
   const CohesiveChunk chunk{
       batches,  motion, joints, law.tan_friction, breaking, law.hands_over, law.hand_over_due, state,
@@ -226,10 +216,6 @@ double let_go(const FaceBatch& batch, int lane, const FaceMoment& at, const Join
     work += 0.5 * batch.area[lane] * at.frame.in_space(lost).dot(at.moved[point]);
   }
   return before - stored(batch, lane, at.frame, joint, state, face) + work;
-}
-
-bool may_end(const CohesiveFace& face) {
-  return damage_of(face) <= hardly_damaged;
 }
 
 std::optional<double> end_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const Joint& joint,

@@ -26,6 +26,7 @@
 #include "libcdem/joint/softening.hpp"
 #include "libcdem/state/cohesive_face.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace cdem {
@@ -63,14 +64,19 @@ double begin_crack(const FaceBatch&, int lane, const FaceMoment&, const Joint&, 
 // A brittle face that has begun to crack carries nothing but contact from now on. The same returned.
 double let_go(const FaceBatch&, int lane, const FaceMoment&, const Joint&, FaceStateBatch&, CohesiveFace&);
 
+// Largest damage of its points.
+inline double damage_of(const CohesiveFace& face) {
+  return std::max({face.damage[0], face.damage[1], face.damage[2]});
+}
+
 // Hardly damaged yet: it goes back to holding once it has unloaded; a brittle one lets go.
-bool may_end(const CohesiveFace&);
+inline bool may_end(const CohesiveFace& face) {
+  constexpr double hardly_damaged = 0.1;
+  return damage_of(face) <= hardly_damaged;
+}
 
 // Goes back to holding where a face that may end has unloaded. The same returned.
 std::optional<double> end_crack(const FaceBatch&, int lane, const FaceMoment&, const Joint&, FaceStateBatch&,
                                 CohesiveFace&);
-
-// Largest damage of its points.
-double damage_of(const CohesiveFace&);
 
 } // namespace cdem

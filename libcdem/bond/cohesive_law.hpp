@@ -94,9 +94,8 @@ CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, 
   const Triple<T> gap = jump - at.start;
   const PartsOfStretch<T> begun = parts_of_stretch<T>(law, at.plane, at.offset);
   const Triple<T> pressed = gap + begun.pressed;
-  CohesiveResponse<T> r;
-  r.damage = at.damage;
-  r.drawn = at.drawn;
+  T damage = at.damage, drawn = at.drawn;
+  simd::MaskOf<T> separated{}, opens{};
   const simd::MaskOf<T> may = grows & law.softens & simd::below(at.damage, one);
   if (simd::any(may)) {
     const Triple<T> whole = gap + at.offset;
@@ -111,29 +110,34 @@ CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, 
       const simd::MaskOf<T> onwards = simd::below<T>(none, dot(gap, begun.bonded));
       const T begun_ratio = strength_ratio<T>(law, at.plane, begun.bonded),
               fading = onwards ? 4.0 * begun_ratio : none;
-      T part = one, drawn = at.drawn; // of lambda, a
+      T part = one, fades = at.drawn; // of lambda, a
       for (int i = 0; i < cohesive_iterations; ++i) {
-        const T excess = before * part * ratio - left.part, slope = before * (ratio + fading * drawn);
+        const T excess = before * part * ratio - left.part, slope = before * (ratio + fading * fades);
         const T next = part - (advances ? excess : none) / (advances ? slope : one);
         part = next < none ? none : next;
-        drawn = onwards ? at.drawn * fourth_power<T>(part) : at.drawn;
-        ratio = strength_ratio<T>(law, at.plane, pressed + drawn * begun.bonded);
+        fades = onwards ? at.drawn * fourth_power<T>(part) : at.drawn;
+        ratio = strength_ratio<T>(law, at.plane, pressed + fades * begun.bonded);
       }
       const simd::MaskOf<T> ends = torn | simd::at_most(left.part, none);
-      r.damage = advances ? (ends ? one : one - before * part) : r.damage;
-      r.drawn = advances ? (ends ? none : drawn) : r.drawn;
-      r.separated = advances & ends;
-      r.opens = torn | left.opens;
+      damage = advances ? (ends ? one : one - before * part) : damage;
+      drawn = advances ? (ends ? none : fades) : drawn;
+      separated = advances & ends;
+      opens = torn | left.opens;
     }
   }
   const SpringResponseOf<T> contact =
       contact_response<T>(law.kn, law.ks, law.tan_friction, at.plane, pressed, at.slip);
-  r.contact = contact.traction;
-  r.slip = contact.offset;
-  r.stretch = pressed + r.drawn * begun.bonded;
-  r.across = ((one - r.damage) * law.kn) * r.stretch + r.damage * r.contact;
-  r.traction = at.plane.z * r.across + (one - r.damage) * at.rest;
-  return r;
+  const Triple<T> stretch = pressed + drawn * begun.bonded,
+                  across = ((one - damage) * law.kn) * stretch + damage * contact.traction;
+  return {at.plane.z * across + (one - damage) * at.rest,
+          across,
+          contact.traction,
+          contact.offset,
+          stretch,
+          damage,
+          drawn,
+          separated,
+          opens};
 }
 
 // J per area, across the plane: what the springs store, less what they stored when the crack began, which the body never did.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace cdem {
 namespace {
@@ -35,7 +36,8 @@ double strain_rate(const Model& model, const State& state, const FaceTets& tets)
 // on repeat the last one.
 struct SlotsOfFaces {
   int count = 0;
-  int face[lanes], a[lanes], b[lanes];
+  int face[lanes];
+  SlotsOfTets tets;
   double left[lanes];
 };
 
@@ -49,8 +51,8 @@ CDEM_INLINE void beyond_kernel(const SlotsOfFaces* eights, std::size_t count, co
     Oct s[6];
     for (int c = 0; c < 6; ++c)
       for (int lane = 0; lane < lanes; ++lane)
-        s[c][lane] = 0.5 * (stress[at.a[lane] / lanes].component[c][at.a[lane] % lanes] +
-                            stress[at.b[lane] / lanes].component[c][at.b[lane] % lanes]);
+        s[c][lane] = 0.5 * (stress[at.tets.a[lane] / lanes].component[c][at.tets.a[lane] % lanes] +
+                            stress[at.tets.b[lane] / lanes].component[c][at.tets.b[lane] % lanes]);
     for (Oct& component : s)
       component /= simd::load(at.left);
     unsigned bits = 0;
@@ -90,36 +92,39 @@ private:
   std::vector<int> faces_to_look_at() const {
     thread_local std::vector<SlotsOfFaces> near;
     thread_local std::vector<std::uint8_t> beyond;
+    thread_local std::vector<int> cracking;
     near.clear();
+    cracking.clear();
     std::vector<int> faces;
     const std::int64_t first = chunk_.face_batches.begin * lanes;
-    for (int face = 0; face < chunk_.faces; ++face) {
-      const FaceStage stage = state_.faces[(first + face) / lanes].stage[face % lanes];
-      if (stage == FaceStage::cracking) {
-        __builtin_prefetch(&state_.cohesive[first + face].damage);
-        faces.push_back(face);
-      } else if (holds(stage)) {
-        if (!is_near(first + face))
-          continue;
-        const bool resumed = stage == FaceStage::resumed;
-        if (resumed && rock_of(face).curve.on()) // its bounds are not in proportion to what is left
+    for (int begin = 0; begin < chunk_.faces; begin += lanes) {
+      const std::int64_t batch = (first + begin) / lanes;
+      const FaceStateBatch& state = state_.faces[batch];
+      const unsigned used = (1u << std::min(chunk_.faces - begin, lanes)) - 1,
+                     resumed = faces_in(state, FaceStage::resumed),
+                     hold = (faces_in(state, FaceStage::holding) | resumed) & used;
+      each_lane(faces_in(state, FaceStage::cracking) & used, [&](int lane) {
+        __builtin_prefetch(&state_.cohesive[first + begin + lane].damage);
+        cracking.push_back(begin + lane);
+      });
+      each_lane(hold != 0 ? hold & near_faces(batch) : 0, [&](int lane) {
+        const int face = begin + lane;
+        const bool resumes = (resumed >> lane & 1u) != 0;
+        if (resumes && rock_of(face).curve.on()) // its bounds are not in proportion to what is left
           faces.push_back(face);
         else
-          add(face, resumed ? 1 - damage_of(state_.cohesive[first + face]) : 1, near);
-      }
+          add(face, resumes ? 1 - damage_of(state_.cohesive[first + face]) : 1, near);
+      });
     }
-    const auto goes_on = [&](int face) {
-      const std::int64_t number = first + face;
-      return state_.faces[number / lanes].stage[face % lanes] == FaceStage::cracking &&
-             !may_end(state_.cohesive[number]);
-    };
-    faces.erase(std::remove_if(faces.begin(), faces.end(), goes_on), faces.end());
+    std::copy_if(cracking.begin(), cracking.end(), std::back_inserter(faces),
+                 [&](int face) { return may_end(state_.cohesive[first + face]); });
+    std::sort(faces.begin(), faces.end());
     if (near.empty())
       return faces;
     SlotsOfFaces& last = near.back();
     for (int lane = last.count; lane < lanes; ++lane) {
-      last.a[lane] = last.a[last.count - 1];
-      last.b[lane] = last.b[last.count - 1];
+      last.tets.a[lane] = last.tets.a[last.count - 1];
+      last.tets.b[lane] = last.tets.b[last.count - 1];
       last.left[lane] = last.left[last.count - 1];
     }
     beyond.resize(near.size());
@@ -134,20 +139,24 @@ private:
     return faces;
   }
 
-  int slot(int tet) const { return model_.mesh.tet_slot[tet - model_.mesh.first_tet]; }
-  bool is_near(std::int64_t number) const {
-    const FaceTets& tets = model_.mesh.face_tets[number];
-    return ((near_.bits[slot(tets.tet_a) / lanes] | near_.bits[slot(tets.tet_b) / lanes]) &
-            NearStrength::may_crack) != 0;
+  // A bit for each face of the batch beside a tet that may be at its strength.
+  unsigned near_faces(std::int64_t batch) const {
+    static_assert(NearStrength::may_crack == 1);
+    const SlotsOfTets& at = watch_.slots_at(batch);
+    unsigned bits = 0;
+    for (int lane = 0; lane < lanes; ++lane)
+      bits |= ((near_.bits[at.a[lane] / lanes] | near_.bits[at.b[lane] / lanes]) & NearStrength::may_crack)
+              << lane;
+    return bits;
   }
   void add(int face, double left, std::vector<SlotsOfFaces>& near) const {
-    const FaceTets& tets = model_.mesh.face_tets[chunk_.face_batches.begin * lanes + face];
     if (near.empty() || near.back().count == lanes)
       near.emplace_back();
+    const SlotsOfTets& at = watch_.slots_at(chunk_.face_batches.begin + face / lanes);
     SlotsOfFaces& last = near.back();
     last.face[last.count] = face;
-    last.a[last.count] = slot(tets.tet_a);
-    last.b[last.count] = slot(tets.tet_b);
+    last.tets.a[last.count] = at.a[face % lanes];
+    last.tets.b[last.count] = at.b[face % lanes];
     last.left[last.count++] = left;
   }
 

@@ -309,6 +309,12 @@ void StrengthWatch::freed(const Model& model) {
   const MeshData& mesh = model.mesh;
   open_.assign(mesh.batches.size(), 0);
   held_.assign(mesh.chunks.size(), 0);
+  slots_.assign(mesh.faces.size(), {});
+  each_face(mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
+    const FaceTets& tets = mesh.face_tets[batch * lanes + lane];
+    slots_[batch].a[lane] = mesh.tet_slot[tets.tet_a - mesh.first_tet];
+    slots_[batch].b[lane] = mesh.tet_slot[tets.tet_b - mesh.first_tet];
+  });
   for (std::size_t c = 0; c < mesh.chunks.size(); ++c) {
     if (!looks_at(static_cast<std::int64_t>(c)))
       continue;

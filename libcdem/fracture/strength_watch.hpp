@@ -31,6 +31,11 @@ struct NearStrength {
   void forget() { crack_known = due_known = false; }
 };
 
+// Where the stresses of the two tets at eight faces stand, batch * lanes + lane; 0 beside an empty lane.
+struct alignas(64) SlotsOfTets {
+  int a[lanes] = {}, b[lanes] = {};
+};
+
 class StrengthWatch {
 public:
   StrengthWatch() = default; // sees nothing
@@ -50,6 +55,9 @@ public:
   // Bounds on the whole strength of the faces of a chunk: a stress for which some face is too weak is beyond one of them.
   const std::vector<UtilisationBound>& strength_bounds(std::int64_t chunk) const {
     return bounds_[static_cast<std::size_t>(chunk)].whole;
+  }
+  const SlotsOfTets& slots_at(std::int64_t face_batch) const {
+    return slots_[static_cast<std::size_t>(face_batch)];
   }
   bool has_held_faces(std::int64_t chunk) const { return held_[static_cast<std::size_t>(chunk)] != 0; }
   void look(const MeshChunk&, std::int64_t chunk, const StressBatch* stress, const StressBatch* before,
@@ -81,6 +89,7 @@ private:
   std::vector<Bounds> bounds_;    // of the faces of each chunk; none: it is of no cohesive body
   std::vector<char> open_;        // per batch of tets, 1: some face may crack and is not freed
   std::vector<char> held_;        // per chunk, likewise
+  std::vector<SlotsOfTets> slots_; // per batch of faces
 };
 
 } // namespace cdem

@@ -193,6 +193,16 @@ CDEM_INLINE MaskOf<V> lanes_with(const std::uint8_t* bytes, std::uint8_t value) 
   return ((MaskOf<V>{} + static_cast<std::int64_t>(eight)) & own) == 0;
 }
 
+// A bit for each of eight bytes that has this value.
+CDEM_INLINE unsigned bits_with(const std::uint8_t* bytes, std::uint8_t value) {
+  constexpr std::uint64_t low = 0x7f7f7f7f7f7f7f7fu;
+  std::uint64_t eight = 0;
+  std::memcpy(&eight, bytes, sizeof eight);
+  eight ^= 0x0101010101010101u * value;
+  const std::uint64_t zero = ~(((eight & low) + low) | eight | low); // 0x80 where a byte is zero
+  return static_cast<unsigned>((zero >> 7) * 0x0102040810204080u >> 56);
+}
+
 // Selects the lanes whose bits are set.
 template <class V>
 CDEM_INLINE MaskOf<V> lanes_of(unsigned bits) {

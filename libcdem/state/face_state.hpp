@@ -1,7 +1,7 @@
 // State of the faces of meshes that may break (bond/face_bonds.hpp, bond/cohesive_faces.hpp).
 #pragma once
 
-#include "libcdem/parallel/node.hpp"
+#include "libcdem/parallel/simd.hpp"
 
 #include <cstdint>
 
@@ -56,6 +56,19 @@ struct FaceStateBatch {
   double let_go[lanes];            // part of its springs that act no more, of a face that leaves
   std::int32_t slip = -1;          // place in State::face_slip; -1: no spring of the batch is broken
 };
+
+// A bit for each face of the batch in this stage.
+CDEM_INLINE unsigned faces_in(const FaceStateBatch& state, FaceStage stage) {
+  return simd::bits_with(reinterpret_cast<const std::uint8_t*>(state.stage),
+                         static_cast<std::uint8_t>(stage));
+}
+
+// visit(lane) for each bit set, ascending.
+template <class Visit>
+CDEM_INLINE void each_lane(unsigned bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1)
+    visit(__builtin_ctz(bits));
+}
 
 // The springs carry nothing any more: what meets there is found by search (contact/).
 inline bool handed_over(const FaceStateBatch& state, int lane) {

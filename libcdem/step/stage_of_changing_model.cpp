@@ -2,6 +2,7 @@
 // new springs. What is known of the model before is carried over or made anew, and the stage can be left there.
 #include "libcdem/bond/release.hpp"
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/fracture/renew_interfaces.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/results/energy.hpp"
@@ -112,7 +113,12 @@ void Stage::change_nodes(Freed freed) {
     take_near_of_all(std::move(now), work);
   }
   contacts_ = ContactUpdate(context_);
-  contacts_.start_anew(model, work.contact, false);
+  const auto start_contacts = [&](bool same_surfaces) {
+    std::shared_ptr<TetContacts> pairs = std::move(work.contact.tet_contacts);
+    contacts_.start_anew(model, work.contact, same_surfaces);
+    take_tet_pairs(model, state, std::move(pairs), work.contact);
+  };
+  start_contacts(false);
   if (in_real_time && !scale_masses)
     carry_water(work.resolved.water_mass);
   update_external(work.resolved, state.time, moving());
@@ -121,7 +127,7 @@ void Stage::change_nodes(Freed freed) {
   const BondWork bond = work.bond; // what springs lose in the step to come begins with the one before
   preload_faces(model, state, net_forces(model, state, work), freed.anew);
   work.bond = bond;
-  contacts_.start_anew(model, work.contact, true);
+  start_contacts(true);
 }
 
 BegunCracks Stage::begun_cracks() {

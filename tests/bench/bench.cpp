@@ -71,7 +71,7 @@ and discs and prisms that crack, and prints rates beside the bare element kernel
   --discs    tetrahedra in a disc that splits between two plates; 0: none
   --prisms   tetrahedra in a prism that is crushed between two plates, e.g. 5000,50000; 0: none
   --threads  thread counts to compare
-  --seconds  stepping time per figure, at least
+  --seconds  stepping time per figure, at least; bodies that break: as many steps as whole ones make in about that time
   --ranks    processes that step the cubes of --tets and the units of --settle, rigid, together, by mpirun, beside as many
              threads of one process
 )";

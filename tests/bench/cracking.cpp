@@ -94,21 +94,22 @@ void cracks(const char* name, const Settings& settings, double speed, Model mode
   const std::size_t tets = model.tets.size() - 2 * tets_of_plate;
   Phases phases(fmt::format("{} of {}", name, tets), std::move(model));
   plates_move(0, phases);
-  phases.run("whole", settings.seconds, [] { return false; });
+  const std::int64_t steps = steps_of_whole(tets, settings.seconds);
+  phases.run("whole", steps, [] { return false; });
   plates_move(speed, phases);
   const auto plate = static_cast<int>(phases.model.blocks.size()) - 1;
   double peak = 0, end = 0; // N, s
   const double begin = phases.state.time;
-  phases.run("loads", 60 * settings.seconds, [&] { return !phases.log.breaks.empty(); });
-  phases.run("cracks", 20 * settings.seconds, [&] {
+  phases.run("loads", 20 * steps, [&] { return !phases.log.breaks.empty(); });
+  phases.run("cracks", 2 * steps, [&] {
     const double force = force_on(phases, plate);
     peak = std::max(peak, force);
     return force < left_of_peak * peak;
   });
   end = 2 * phases.state.time - begin;
-  phases.run("goes on", 10 * settings.seconds, [&] { return phases.state.time > end; });
+  phases.run("goes on", steps, [&] { return phases.state.time > end; });
   plates_move(0, phases);
-  phases.run("rests", 5 * settings.seconds, [] { return false; });
+  phases.run("rests", steps / 2, [] { return false; });
 }
 
 } // namespace

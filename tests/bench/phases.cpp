@@ -22,6 +22,11 @@ struct LastProgress : Observer {
 
 } // namespace
 
+std::int64_t steps_of_whole(std::size_t tets, double seconds) {
+  constexpr double tet_steps = 60e6; // a second
+  return 1 + static_cast<std::int64_t>(seconds * tet_steps / static_cast<double>(tets));
+}
+
 void print_head_of_phases(const char* title) {
   std::printf("\n%s; one thread\n%-24s %9s %8s %9s %10s %9s %8s\n", title, "", "", "steps", "broken",
               "steps/s", "of whole", "contacts");
@@ -30,15 +35,15 @@ void print_head_of_phases(const char* title) {
 Phases::Phases(std::string label, Model built)
     : model(std::move(built)), state(initial_state(model)), label_(std::move(label)) {}
 
-void Phases::run(const char* name, double most_seconds, const std::function<bool()>& ends) {
+void Phases::run(const char* name, std::int64_t most_steps, const std::function<bool()>& ends) {
   if (stage_ == 0)
     start_ = energy(model, state).total();
   const std::size_t before = log.breaks.size();
   RunOptions options;
-  options.steps = 1000000;
+  options.steps = most_steps;
   options.callback_every = ask_every;
   const Stopwatch watch(1);
-  options.stop = [&] { return ends() || watch.seconds() > most_seconds; };
+  options.stop = ends;
   LastProgress observer;
   const RunResult r =
       cdem::run(stage_context(model, state, conditions, log, last_good_, observer, 1, ++stage_), options);

@@ -4,10 +4,14 @@
 #include "libcdem/procedure/run.hpp"
 #include "tests/bench/measure.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
 namespace bench {
+
+// Steps that a whole body with so many tets makes in some `seconds` on one thread.
+std::int64_t steps_of_whole(std::size_t tets, double seconds);
 
 // The columns of a phase.
 void print_head_of_phases(const char* title);
@@ -24,8 +28,9 @@ public:
   cdem::Conditions conditions;
   cdem::RunLog log;
 
-  // Runs until ends(), asked every few steps, or for so many seconds of processor time, and prints a row.
-  void run(const char* name, double most_seconds, const std::function<bool()>& ends);
+  // Runs until ends(), asked every few steps, or for most_steps, and prints a row. The clock ends no phase: what breaks would
+  // depend on it.
+  void run(const char* name, std::int64_t most_steps, const std::function<bool()>& ends);
 
 private:
   std::string label_;

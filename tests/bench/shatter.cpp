@@ -62,13 +62,14 @@ void shatter(const Settings& settings) {
     held.on = Selection::of_body("floor");
     held.axes = {true, true, true};
     phases.conditions.fixes = {held};
-    phases.run("whole", 1e9, [&] { return !phases.log.breaks.empty(); });
+    const std::int64_t steps = steps_of_whole(model.tets.size(), settings.seconds);
+    phases.run("whole", 20 * steps, [&] { return !phases.log.breaks.empty(); });
     const auto broken = [&](double part) {
       return [&, part] { return static_cast<double>(phases.log.breaks.size()) > part * bonds; };
     };
-    phases.run("breaks", 20 * settings.seconds, broken(first_part));
-    phases.run("shatters", 20 * settings.seconds, broken(most_part));
-    phases.run("after", 10 * settings.seconds, [] { return false; });
+    phases.run("breaks", 2 * steps, broken(first_part));
+    phases.run("shatters", 2 * steps, broken(most_part));
+    phases.run("after", steps, [] { return false; });
   }
 }
 

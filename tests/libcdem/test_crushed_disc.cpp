@@ -2,7 +2,11 @@
 // in search and contacts changes no bit.
 #include "tests/libcdem/boxes.hpp"
 
+#include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
+#include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/first_model.hpp"
+#include "libcdem/fracture/split_nodes.hpp"
 #include "libgeom/meshing/solid_mesh.hpp"
 
 #include <algorithm>
@@ -52,8 +56,7 @@ struct Outcome {
   std::size_t contacts = 0;
 };
 
-// looks_from: the first stage in which all contacts are looked at, if any.
-Outcome crush(const cdem::ModelSpec& spec, int looks_from, int stages, int steps) {
+System with_moving_plates(const cdem::ModelSpec& spec) {
   System s(cdem::first_model(spec));
   for (const bool lower : {true, false}) {
     cdem::Fix plate;
@@ -61,6 +64,12 @@ Outcome crush(const cdem::ModelSpec& spec, int looks_from, int stages, int steps
     plate.velocity = geom::Vec3(0, 0, lower ? 0.5 : -0.5);
     s.conditions.fixes.push_back(plate);
   }
+  return s;
+}
+
+// looks_from: the first stage in which all contacts are looked at, if any.
+Outcome crush(const cdem::ModelSpec& spec, int looks_from, int stages, int steps) {
+  System s = with_moving_plates(spec);
   Outcome outcome;
   for (int stage = 0; stage < stages; ++stage) {
     cdem::RunOptions options;
@@ -107,4 +116,38 @@ TEST_CASE("crushed disc: what is skipped changes no bit of a cohesive disc",
   INFO("broken " << all.broken << " contacts " << all.contacts << " and " << skipped.contacts);
   CHECK(all.broken > 200);
   check_same(all, skipped);
+}
+
+TEST_CASE("crushed disc: pairs of tetrahedra are not found again where nodes are freed",
+          "[contact][cohesive][fracture]") {
+  System s = with_moving_plates(between_plates(0.013, 0.1, cdem::BondKind::cohesive));
+  cdem::RunOptions options;
+  options.steps = 2400;
+  s.run(options);
+  cdem::ContactWork before;
+  cdem::start_contact(s.model, before);
+  cdem::contact_forces(s.model, s.state, before, 1);
+  REQUIRE(before.tet_contacts);
+  std::vector<char> disc(s.model.node_position.size(), 0);
+  std::fill(disc.begin() + s.model.blocks[0].node_begin, disc.begin() + s.model.blocks[0].node_end, 1);
+  const cdem::Freed freed = cdem::split_nodes(s.model, s.state, disc);
+  REQUIRE(freed.model.node_position.size() > s.model.node_position.size());
+
+  cdem::ContactWork known, anew;
+  cdem::State with_known = freed.state, with_anew = freed.state;
+  cdem::start_contact(freed.model, known);
+  cdem::start_contact(freed.model, anew);
+  cdem::take_tet_pairs(freed.model, freed.state, before.tet_contacts, known);
+  cdem::contact_forces(freed.model, with_known, known, 1);
+  cdem::contact_forces(freed.model, with_anew, anew, 1);
+  CHECK(known.tet_contacts == before.tet_contacts);
+  CHECK(cdem::hash(with_known) == cdem::hash(with_anew));
+  REQUIRE(known.force.size() == anew.force.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < known.force.size(); ++i) {
+    const cdem::Node &a = known.force[i], &b = anew.force[i];
+    largest = std::max(largest, std::abs(a.x));
+    REQUIRE((a.x == b.x && a.y == b.y && a.z == b.z));
+  }
+  CHECK(largest > 0);
 }

@@ -114,6 +114,16 @@ TEMPLATE_TEST_CASE("rows of vectors become columns", "[simd]", cdem::simd::Oct, 
       CHECK(rows[i][j] == 10 * j + i);
 }
 
+TEST_CASE("a bit for each of eight bytes with a value", "[simd]") {
+  for (unsigned wanted = 0; wanted < 256; ++wanted)
+    for (const int value : {0, 1, 2, 127, 128, 255}) {
+      std::uint8_t bytes[cdem::lanes];
+      for (int lane = 0; lane < cdem::lanes; ++lane)
+        bytes[lane] = static_cast<std::uint8_t>((wanted >> lane & 1u) != 0 ? value : value ^ (1 << lane));
+      REQUIRE(cdem::simd::bits_with(bytes, static_cast<std::uint8_t>(value)) == wanted);
+    }
+}
+
 TEST_CASE("prints the hashes of short runs", "[.hashes]") {
   System s = thrown();
   cdem::RunOptions run;

@@ -5,6 +5,7 @@
 #include "libcdem/contact/data/tet_contacts.hpp"
 #include "libcdem/contact/response/tet_potential.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
+#include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/disjoint_sets.hpp"
 #include "libgeom/query/box_pairs.hpp"
@@ -71,20 +72,33 @@ void add_tets(const Model& model, const ContactWork& work, int block, TetContact
   const Block& b = model.blocks[block];
   const std::vector<char> at_surface = tets_at_surface(model, work.movers, block),
                           all = with_rings(model, b, at_surface);
-  const auto first = static_cast<std::ptrdiff_t>(to.nodes.size());
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
     if (all[tet - b.tet_begin]) {
       to.number[tet] = static_cast<int>(to.tets.size());
       to.tets.push_back(
           {tet, block, model.tets[tet], tet_size(model, tet), at_surface[tet - b.tet_begin] != 0});
-      to.nodes.insert(to.nodes.end(), model.tets[tet].begin(), model.tets[tet].end());
-      for (int k = 0; k < 4; ++k)
-        to.corner[k].push_back(model.tets[tet][k]);
     }
   to.tets_begin.push_back(static_cast<int>(to.tets.size()));
-  std::sort(to.nodes.begin() + first, to.nodes.end());
-  to.nodes.erase(std::unique(to.nodes.begin() + first, to.nodes.end()), to.nodes.end());
-  to.nodes_begin.push_back(static_cast<int>(to.nodes.size()));
+}
+
+void set_nodes(const Model& model, TetContacts& of) {
+  of.nodes.clear();
+  of.nodes_begin.assign(1, 0);
+  for (std::vector<int>& corner : of.corner)
+    corner.resize(of.tets.size());
+  for (std::size_t block = 0; block + 1 < of.tets_begin.size(); ++block) {
+    const auto first = static_cast<std::ptrdiff_t>(of.nodes.size());
+    for (int t = of.tets_begin[block]; t < of.tets_begin[block + 1]; ++t) {
+      const geom::Tet& nodes = of.tets[t].nodes = model.tets[of.tets[t].tet];
+      of.nodes.insert(of.nodes.end(), nodes.begin(), nodes.end());
+      for (int k = 0; k < 4; ++k)
+        of.corner[k][t] = nodes[k];
+    }
+    std::sort(of.nodes.begin() + first, of.nodes.end());
+    of.nodes.erase(std::unique(of.nodes.begin() + first, of.nodes.end()), of.nodes.end());
+    of.nodes_begin.push_back(static_cast<int>(of.nodes.size()));
+  }
+  of.place.resize(model.node_position.size());
 }
 
 void set_places(const Model& model, const State& state, TetContacts& of) {
@@ -122,9 +136,7 @@ void add_near(const std::vector<TetPair>& pairs, TetContacts& to) {
 void find_anew(const Model& model, const State& state, ContactWork& work) {
   auto found = std::make_shared<TetContacts>();
   TetContacts& to = *found;
-  to.place.resize(model.node_position.size());
   to.number.assign(model.tets.size(), -1);
-  to.nodes_begin.push_back(0);
   to.tets_begin.push_back(0);
   to.skin = std::numeric_limits<double>::infinity();
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
@@ -132,6 +144,7 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
       add_tets(model, work, block, to);
       to.skin = std::min(to.skin, skin_ratio * model.surface.usual_height[block]);
     }
+  set_nodes(model, to);
   set_places(model, state, to);
   to.paths.assign(to.tets.size());
   to.path_then.assign(to.tets.size(), 0.0);
@@ -249,11 +262,12 @@ void find_near(const ContactWork& work, TetContacts& of) {
 void move(const Model& model, const State& state, const ContactWork& work, TetContacts& of) {
   set_places(model, state, of);
   for (std::size_t block = 0; block + 1 < of.nodes_begin.size(); ++block) {
-    geom::Vec3 mean = geom::Vec3::Zero(); // m/s
+    simd::Quad sums[4] = {}; // m/s; several: an addition waits for the one before
     for (int i = of.nodes_begin[block]; i < of.nodes_begin[block + 1]; ++i)
-      mean += velocity_of(state, of.nodes[i]);
-    mean /= std::max(1, of.nodes_begin[block + 1] - of.nodes_begin[block]);
-    add_step(state.velocity.data(), {mean.x(), mean.y(), mean.z(), 0}, work.step, of.corner,
+      sums[i % 4] += simd::load(state.velocity[of.nodes[i]]);
+    const simd::Quad mean = ((sums[0] + sums[1]) + (sums[2] + sums[3])) /
+                            std::max(1, of.nodes_begin[block + 1] - of.nodes_begin[block]);
+    add_step(state.velocity.data(), {mean[0], mean[1], mean[2], 0}, work.step, of.corner,
              of.tets_begin[block], of.tets_begin[block + 1], of.paths);
   }
   ++of.steps;
@@ -321,6 +335,29 @@ void find_tet_pairs(const Model& model, const State& state, ContactWork& work, b
     wake_contacts(state, of);
   if (any_beyond(of.paths.path, of.limit))
     find_near(work, of);
+}
+
+void take_tet_pairs(const Model& model, const State& state, std::shared_ptr<TetContacts> before,
+                    ContactWork& work) {
+  if (!before || before->number.size() != model.tets.size())
+    return;
+  TetContacts& of = *before;
+  constexpr double rounding = 1 + 1e-6;
+  for (std::size_t t = 0; t < of.tets.size(); ++t) {
+    double moved = 0; // m
+    for (int k = 0; k < 4; ++k) {
+      const Node& was = of.place[of.corner[k][t]];
+      const geom::Vec3 now = place_of(model, state, model.tets[of.tets[t].tet][k]);
+      moved = std::max(moved, (now - geom::Vec3(was.x, was.y, was.z)).norm());
+    }
+    of.paths.path[t] += rounding * moved;
+    of.paths.now[3][t] = static_cast<float>(of.paths.swing[t] += rounding * moved);
+  }
+  set_nodes(model, of);
+  of.joint.assign(model.node_position.size(), -1); // of other nodes than before
+  of.fresh = true;
+  wake_contacts(state, of);
+  work.tet_contacts = std::move(before);
 }
 
 } // namespace cdem

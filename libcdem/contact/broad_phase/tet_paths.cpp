@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 
 namespace cdem {
 namespace {
@@ -20,6 +22,31 @@ CDEM_INLINE V longest(const std::array<Triple<V>, 4>& v, const Triple<V>& past) 
   for (int lane = 0; lane < simd::width<V>; ++lane)
     most[lane] = std::sqrt(most2[lane]);
   return most;
+}
+
+using FourFloats = float __attribute__((vector_size(16)));
+using EightFloats = float __attribute__((vector_size(32)));
+
+// Adds to the sums from `first` on, and writes them as floats too unless `now` is null.
+template <class V>
+CDEM_INLINE void add_to(std::vector<double>& sums, std::vector<float>* now, int first, int count,
+                        const V& more) {
+  double* const sum = sums.data() + first;
+  if (count == simd::width<V>) { // one by one takes longer than all else here
+    const V all = simd::load_wide<V>(sum) + more;
+    simd::store_wide<V>(sum, all);
+    if (now) {
+      using Floats = std::conditional_t<simd::width<V> == lanes, EightFloats, FourFloats>;
+      const Floats rounded = __builtin_convertvector(all, Floats);
+      std::memcpy(now->data() + first, &rounded, sizeof rounded);
+    }
+    return;
+  }
+  for (int lane = 0; lane < count; ++lane) {
+    sum[lane] += more[lane];
+    if (now)
+      (*now)[first + lane] = static_cast<float>(sum[lane]);
+  }
 }
 
 template <class V>
@@ -41,14 +68,11 @@ CDEM_INLINE void paths_kernel(const Node* velocity, const Node& frame, double st
     const Triple<V> middle = scaled(quarter, plus(plus(v[0], v[1]), plus(v[2], v[3])));
     const V path = length * longest<V>(v, past), swing = length * longest<V>(v, middle);
     const Triple<V> drift = scaled(V(V{} + step), minus(middle, past));
-    for (int lane = 0; lane < count; ++lane) {
-      const int t = first + lane;
-      of.path[t] += path[lane];
-      of.now[3][t] = static_cast<float>(of.swing[t] += swing[lane]);
-      of.now[0][t] = static_cast<float>(of.drift[0][t] += drift.x[lane]);
-      of.now[1][t] = static_cast<float>(of.drift[1][t] += drift.y[lane]);
-      of.now[2][t] = static_cast<float>(of.drift[2][t] += drift.z[lane]);
-    }
+    add_to<V>(of.path, nullptr, first, count, path);
+    add_to<V>(of.swing, &of.now[3], first, count, swing);
+    add_to<V>(of.drift[0], &of.now[0], first, count, drift.x);
+    add_to<V>(of.drift[1], &of.now[1], first, count, drift.y);
+    add_to<V>(of.drift[2], &of.now[2], first, count, drift.z);
   }
 }
 
