@@ -49,6 +49,8 @@ void check_contacts(const Model& model, const State& state) {
     require_below(std::string("contacts.") + field, t, triangles);
   };
   for (const Contact& c : state.contacts) {
+    if (!(c.at_rest >= 0))
+      refuse_state("contacts.at_rest", std::to_string(c.at_rest) + " is out of range");
     if (c.kind == Contact::tets) {
       require_below("contacts.source", c.source, model.tets.size());
       require_below("contacts.target", c.target, model.tets.size());

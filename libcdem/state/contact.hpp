@@ -27,7 +27,7 @@ struct Contact {
   double reference_penetration = 0;
   double depth = 0;     // m, below the target's surface
   double damping = 0;   // N, what restitution adds to the spring's normal force
-  double at_rest = 0;   // m, effective penetration, averaged over the last some oscillations; with restitution
+  double at_rest = 0;   // m, mean effective penetration over some ten oscillations; with restitution
   double stiffness = 0; // N/m, of its normal spring (as_stiff_as); 0: that of its law
 
   explicit Contact(Kind of = spring, int from = 0)

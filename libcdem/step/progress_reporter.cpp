@@ -38,6 +38,7 @@ void ProgressReporter::operator()(Progress progress, bool last) {
   progress.broken_shear = log_.broken_shear - log_.told_shear;
   progress.steps_per_second = passed > 0 ? static_cast<double>(progress.step - step_) / passed : 0;
   progress.last = last;
+  // What the stage told of its ranks follows the times.
   progress.times = last ? times.text() + progress.times : "";
   if (last) {
     log_.told_tension = log_.broken_tension;

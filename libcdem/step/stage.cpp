@@ -245,7 +245,7 @@ void Stage::look_for_escapes() {
   }
   if (!holds)
     return;
-  shares_.resolved();
+  shares_.loads_are_whole();
   work.resolved = resolve(context_.model, context_.state, context_.conditions);
   update_external(work.resolved, context_.state.time, moving());
 }

@@ -38,10 +38,11 @@ public:
   Stage& operator=(const Stage&) = delete;
 
   Workspace work;
-  std::int64_t step = 0;                  // within the stage
-  std::function<void(Progress&)> details; // adds to what the progress line shows; may be empty
-  bool breaking = true;                   // bonds may break
-  double safety = 1;                      // the longest step over the stable one
+  std::int64_t step = 0; // within the stage
+  std::function<void(Progress&)>
+      details;              // adds to what the progress line shows, but stage, kind and times; may be empty
+  bool breaking = true;     // bonds may break
+  double safety = 1;        // the longest step over the stable one
   bool in_real_time = true; // velocities are per second: strength may depend on the rate, nodes join again
   std::function<void()> scale_masses; // after nodes have been freed; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.

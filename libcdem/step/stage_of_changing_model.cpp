@@ -104,7 +104,7 @@ void Stage::change_nodes(Freed freed) {
   work.contact = std::move(before.contact);
   watch_.freed(model);
   work.watch = &watch_;
-  shares_.resolved();
+  shares_.loads_are_whole();
   shares_.share(moving());
   if (near_known) {
     std::vector<std::uint8_t> now(model.mesh.batches.size(), 0);
@@ -171,7 +171,7 @@ bool Stage::renew_interfaces() {
     }
   if (scale_masses)
     scale_masses();
-  shares_.resolved();
+  shares_.loads_are_whole();
   shares_.share(moving());
   contacts_ = ContactUpdate(context_);
   contacts_.start_anew(model, work.contact, true);

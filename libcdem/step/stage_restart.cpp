@@ -7,7 +7,7 @@
 namespace cdem {
 
 void Stage::keep_restart_point(std::vector<double> loop_state) {
-  if (can_be_left() && shares_.is_uneven()) {
+  if (can_be_left() && shares_.count_loads()) {
     see_whole();
     shares_.gather(work.bond);
     if (carried)

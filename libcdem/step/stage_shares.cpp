@@ -83,7 +83,7 @@ void StageShares::warn_of_idle() const {
 }
 
 // A body that breaks on one side costs more there.
-bool StageShares::is_uneven() {
+bool StageShares::count_loads() {
   if (ranks().alone())
     return false;
   const Partition& part = work_.part();

@@ -16,11 +16,12 @@ public:
 
   // moving: the velocities that loads depend on; null: they depend on none.
   void share(const std::vector<Node>* moving);
-  bool is_uneven(); // and can be evened
-  // Where they are. All of the state is here, and so are springs and what else the stage carries.
+  // Counts the loads of the ranks, which all do so together. True where another share would make them more even.
+  bool count_loads();
+  // Shares the chunks anew. Each rank has all of the state by then, and all springs.
   void share_anew(const std::vector<Node>* moving, const StageStep&);
-  void give_back();                       // memory of what other ranks own
-  void resolved() { gave_back_ = false; } // the workspace's loads are those of all ranks again
+  void give_back();                              // memory of what other ranks own
+  void loads_are_whole() { gave_back_ = false; } // the workspace's loads are those of all ranks again
   void gather(BondWork&) const;
 
   // An error has ended the stage.

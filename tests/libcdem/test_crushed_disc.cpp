@@ -2,11 +2,11 @@
 // in search and contacts changes no bit.
 #include "tests/libcdem/boxes.hpp"
 
-#include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/first_model.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
+#include "libcdem/step/workspace.hpp"
 #include "libgeom/meshing/solid_mesh.hpp"
 
 #include <algorithm>
@@ -124,28 +124,26 @@ TEST_CASE("crushed disc: pairs of tetrahedra are not found again where nodes are
   cdem::RunOptions options;
   options.steps = 2400;
   s.run(options);
-  cdem::ContactWork before;
-  cdem::start_contact(s.model, before);
-  cdem::contact_forces(s.model, s.state, before, 1);
-  REQUIRE(before.tet_contacts);
+  cdem::Workspace before(s.model, s.state, {});
+  cdem::contact_forces(s.model, s.state, before.contact, 1);
+  REQUIRE(before.contact.tet_contacts);
   std::vector<char> disc(s.model.node_position.size(), 0);
   std::fill(disc.begin() + s.model.blocks[0].node_begin, disc.begin() + s.model.blocks[0].node_end, 1);
   const cdem::Freed freed = cdem::split_nodes(s.model, s.state, disc);
   REQUIRE(freed.model.node_position.size() > s.model.node_position.size());
 
-  cdem::ContactWork known, anew;
+  cdem::Workspace known(freed.model, freed.state, {}), anew(freed.model, freed.state, {});
   cdem::State with_known = freed.state, with_anew = freed.state;
-  cdem::start_contact(freed.model, known);
-  cdem::start_contact(freed.model, anew);
-  cdem::take_tet_pairs(freed.model, freed.state, before.tet_contacts, known);
-  cdem::contact_forces(freed.model, with_known, known, 1);
-  cdem::contact_forces(freed.model, with_anew, anew, 1);
-  CHECK(known.tet_contacts == before.tet_contacts);
+  cdem::take_tet_pairs(freed.model, freed.state, before.contact.tet_contacts, known.contact);
+  cdem::contact_forces(freed.model, with_known, known.contact, 1);
+  cdem::contact_forces(freed.model, with_anew, anew.contact, 1);
+  CHECK(known.contact.tet_contacts == before.contact.tet_contacts);
   CHECK(cdem::hash(with_known) == cdem::hash(with_anew));
-  REQUIRE(known.force.size() == anew.force.size());
+  const std::vector<cdem::Node>&of_known = known.contact.loads.force, &of_anew = anew.contact.loads.force;
+  REQUIRE(of_known.size() == of_anew.size());
   double largest = 0;
-  for (std::size_t i = 0; i < known.force.size(); ++i) {
-    const cdem::Node &a = known.force[i], &b = anew.force[i];
+  for (std::size_t i = 0; i < of_known.size(); ++i) {
+    const cdem::Node &a = of_known[i], &b = of_anew[i];
     largest = std::max(largest, std::abs(a.x));
     REQUIRE((a.x == b.x && a.y == b.y && a.z == b.z));
   }

@@ -57,11 +57,12 @@ struct Searches {
   std::int64_t count = 0;
 };
 
-// Per face of a tet of a block that has broken: the tet that whole bonds, or nodes, hold to it there; or why there is none.
+// What lies beyond the faces of tets of blocks that have broken.
 struct TetsBeyond {
   static constexpr int none = -1, deep = -2; // it is the surface; the tet has no node on the surface
   std::vector<int> neighbours;               // mesh_neighbours; empty before any block has broken
-  std::vector<std::array<int, 4>> of_tet;    // of the mesh, by face (geom::tet_faces)
+  // Of each tet of the mesh, by face (geom::tet_faces): the tet that whole bonds, or nodes, hold to it there; or why there is none.
+  std::vector<std::array<int, 4>> of_tet;
 };
 
 // Motion of a block as a whole.
@@ -99,7 +100,7 @@ struct ContactWork {
   ContactLoads loads;
 
   // With several ranks, each keeps the rows that stand at a run of triangles (data/row_owner.hpp).
-  SharedState* shared = nullptr;            // of the Workspace
+  SharedState* shared = nullptr;            // of the Workspace; never null where contacts are looked at
   std::vector<std::int64_t> triangle_begin; // (ranks + 1)
 };
 

@@ -36,7 +36,7 @@ Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, c
 void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const ContactArms& arms,
                               const geom::Vec3& velocity, const ContactTriangle& from,
                               const ContactTriangle& to, ContactMotion& motion) const {
-  const double force = law.kn * std::max(0.0, motion.depth);
+  const double force = law.kn * pressed_now(c, motion);
   const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 3, force),
                    target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
   motion.acceleration = source.acceleration + target.acceleration;
@@ -76,6 +76,8 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     if (work_.restitution && law.damping_ratio > 0)
       set_approach(c, law, arms, velocity, from, to, motion);
     const ContactLoss loss = advance(c, law, motion);
+    if (!work_.restitution && law.damping_ratio > 0)
+      c.at_rest = c.effective_penetration(); // a relaxation finds the rest
     force.friction += loss.friction;
     force.damping = loss.damping;
   }

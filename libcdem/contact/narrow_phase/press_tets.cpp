@@ -265,6 +265,8 @@ private:
         c.damping *= std::sqrt(law.kn / c.stiffness);
       const double jump = 0.5 * (damping - c.damping) * closing; // J
       const ContactLoss loss = advance(c, law, motion);
+      if (!work_.restitution && law.damping_ratio > 0)
+        c.at_rest = c.effective_penetration();
       out_.friction.push_back(loss.friction);
       out_.damping.push_back(loss.damping + jump);
       c.stiffness = law.kn;

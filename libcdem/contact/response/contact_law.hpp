@@ -11,17 +11,17 @@
 //   they separate:    D = -r kn p |s|,   only while the contact itself opens; q = 0
 //
 // p is the effective penetration, s = v / v0 within -1 and 1. While the bodies approach D is a spring that stores
-// 1/2 r kn q^2. Damping is what it loses when its bound s p falls, and the work of D while the contact opens. So damping never
-// gives energy back, whatever the waves in the bodies do.
+// 1/2 r kn q^2. Damping is what it loses when its bound s p falls, and the work of D while the contact opens. So damping
+// gives no energy back, whatever the waves in the bodies do, but for the half step after the contact turns round.
 //
 //   v  = (1 - w) v_bodies + w v_contact,  v0 = max(a dt, w sqrt(a p)),  w = min(1, p_rest / p)
 //   d p_rest / dt = (p - p_rest) sqrt(a / p) / 60
 //
-// v_bodies: speed at which the bodies approach, each moving as a whole; v_contact: at which the contact closes; a: acceleration
-// that the contacts give the bodies, so sqrt(p / a) is the time scale of an oscillation. In an impact w is next to nothing, and D
+// v_bodies: speed at which the bodies approach, each moving as a whole; v_contact: at which the contact closes; a: sum of
+// the normal forces on each body over its mass, so sqrt(p / a) is the time scale of an oscillation. In an impact w is next to nothing, and D
 // is there in full down to the speed that the forces of one step reverse. A contact that carries for long has w = 1, and v0 is the
-// speed that its forces reverse within its depth: what is slower vibrates about its rest, and D is in proportion to v, as of a
-// dashpot. If D jumped with each change of direction, so would the limit of friction, and a body would creep down a slope far
+// speed that its forces reverse within its depth: what is slower vibrates about its rest, and D is at most in proportion to v, as
+// that of a dashpot with r / 2 of the critical damping. If D jumped with each change of direction, so would the limit of friction, and a body would creep down a slope far
 // below its friction.
 //
 // An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
@@ -105,16 +105,21 @@ inline double part_of(double speed, double reversed) {
   return std::abs(speed) < reversed ? speed / reversed : std::copysign(1.0, speed);
 }
 
+// m, of a contact before it advances: its effective penetration after the step.
+inline double pressed_now(const Contact& c, const ContactMotion& m) {
+  return std::max(0.0, m.depth - c.reference_penetration);
+}
+
 // w of restitution, of a contact before it advances: 0 in an impact, 1 at rest.
 inline double part_at_rest(const Contact& c, const ContactMotion& m) {
-  const double pressed = std::max(0.0, m.depth - c.reference_penetration);
+  const double pressed = pressed_now(c, m);
   return pressed > c.at_rest ? c.at_rest / pressed : pressed > 0 ? 1 : 0;
 }
 
 // m/s, v0 of restitution, of a contact before it advances.
 inline double reversible_speed(const Contact& c, const ContactMotion& m) {
-  const double pressed = std::max(0.0, m.depth - c.reference_penetration);
-  return std::max(m.step * m.acceleration, part_at_rest(c, m) * std::sqrt(m.acceleration * pressed));
+  return std::max(m.step * m.acceleration,
+                  part_at_rest(c, m) * std::sqrt(m.acceleration * pressed_now(c, m)));
 }
 
 // Advances the mean penetration of restitution.
