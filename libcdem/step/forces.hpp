@@ -14,7 +14,7 @@ const Node* block_forces(const Model&, const State&, const Workspace&, std::int6
 // forces of contacts.
 std::vector<Node> inner_forces(const Model&, const State&, Workspace&);
 
-// The same with loads and contacts, but for contacts of rigid bodies (ContactWork::on_rigid); the workspace's loads are up
+// The same with loads and contacts, but for contacts of rigid bodies (ContactLoads::on_rigid); the workspace's loads are up
 // to date.
 std::vector<Node> net_forces(const Model&, const State&, Workspace&);
 

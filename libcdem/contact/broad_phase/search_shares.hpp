@@ -18,7 +18,7 @@ double near_triangles_of(const ActiveSurface&, int block_a, int block_b);
 // What a search found near each other, and beside it.
 struct FoundNear {
   std::vector<std::vector<Near>> springs, edges;           // in parts
-  double may_go = std::numeric_limits<double>::infinity(); // m, ContactWork::undefined_pair_margin
+  double may_go = std::numeric_limits<double>::infinity(); // m, Searches::undefined_pair_margin
   std::string wrong; // what is wrong with the first pair that is; empty: nothing
 };
 
