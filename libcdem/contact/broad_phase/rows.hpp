@@ -6,7 +6,7 @@
 
 namespace cdem {
 
-// Writes the ContactRows of one kind: those that stay, and those of `parts`.
+// Writes ContactWork::rows of one kind: those that stay, and those of `parts`.
 void make_rows(const Model&, ContactWork&, const SearchMargin&, const std::vector<std::vector<Near>>& parts,
                Contact::Kind, const Renewed&);
 
