@@ -88,8 +88,9 @@ Sliding slide(const cdem::Amplitude& base, double duration, double angle) {
   floor.element = block.element = cdem::Element::rigid;
   spec.bodies = {floor, block};
   cdem::Joint contact = friction(angle);
-  contact.normal_stiffness = 1e9;
-  contact.shear_stiffness = 1e9;
+  contact.normal_stiffness =
+      1e10; // the slip of a contact ten times as soft is 2.6 % shorter, of one a hundred times 8 %
+  contact.shear_stiffness = 1e10;
   contact.restitution = 0.1;
   spec.pairs = {{"floor", "block", contact}};
   cdem::Simulation s(spec, 1, nullptr);
@@ -118,7 +119,7 @@ TEST_CASE("Newmark's block slides as the rigid-plastic block does, under a sine 
     const double expected = newmark(base, end + 1, friction);
     CHECK(std::abs(expected) > 0.03);
     const Sliding s = slide(base, end + 1, angle);
-    CHECK(s.slip == Approx(expected).epsilon(0.03));
+    CHECK(s.slip == Approx(expected).epsilon(0.015));
     CHECK(s.balance < 0.02);
   }
   SECTION("a record") {
@@ -135,7 +136,7 @@ TEST_CASE("Newmark's block slides as the rigid-plastic block does, under a sine 
     const cdem::Amplitude base = [velocity](double t) { return velocity.at(t); };
     const double expected = newmark(base, 5, friction);
     CHECK(std::abs(expected) > 0.02);
-    CHECK(slide(base, 5, angle).slip == Approx(expected).epsilon(0.05));
+    CHECK(slide(base, 5, angle).slip == Approx(expected).epsilon(0.03));
   }
 }
 
