@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <unistd.h>
 
 using namespace testing;
@@ -112,6 +113,29 @@ TEMPLATE_TEST_CASE("rows of vectors become columns", "[simd]", cdem::simd::Oct, 
   for (int i = 0; i < width; ++i)
     for (int j = 0; j < width; ++j)
       CHECK(rows[i][j] == 10 * j + i);
+}
+
+TEMPLATE_TEST_CASE("comparisons of vectors are those of their numbers", "[simd]", cdem::simd::Oct,
+                   cdem::simd::Quad) {
+  using Limits = std::numeric_limits<double>;
+  const std::vector<double> numbers{-Limits::max(), -1, -Limits::min(),        -Limits::denorm_min(),
+                                    -0.0,           0,  Limits::denorm_min(),  Limits::min(),
+                                    1e-300,         1,  1 + Limits::epsilon(), Limits::max()};
+  constexpr int width = cdem::simd::width<TestType>;
+  for (const double a : numbers)
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      TestType left = a - TestType{}, right;
+      for (int lane = 0; lane < width; ++lane)
+        right[lane] = numbers[(i + static_cast<std::size_t>(lane)) % numbers.size()];
+      const auto below = cdem::simd::below(left, right), at_most = cdem::simd::at_most(left, right),
+                 equal = cdem::simd::equal(left, right);
+      for (int lane = 0; lane < width; ++lane) {
+        CAPTURE(a, right[lane]);
+        REQUIRE((below[lane] != 0) == (a < right[lane]));
+        REQUIRE((at_most[lane] != 0) == (a <= right[lane]));
+        REQUIRE((equal[lane] != 0) == (a == right[lane]));
+      }
+    }
 }
 
 TEST_CASE("a bit for each of eight bytes with a value", "[simd]") {
