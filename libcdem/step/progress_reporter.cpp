@@ -38,7 +38,7 @@ void ProgressReporter::operator()(Progress progress, bool last) {
   progress.broken_shear = log_.broken_shear - log_.told_shear;
   progress.steps_per_second = passed > 0 ? static_cast<double>(progress.step - step_) / passed : 0;
   progress.last = last;
-  // What the stage told of its ranks follows the times.
+  // The times come first, then the loads of the ranks that the stage has told.
   progress.times = last ? times.text() + progress.times : "";
   if (last) {
     log_.told_tension = log_.broken_tension;

@@ -99,7 +99,7 @@ bool StageShares::count_loads() {
   return now >= uneven && imbalance(loads, even_shares(loads, part.size)) <= 0.5 * (1 + now);
 }
 
-// What is read of others is found anew with the contacts.
+// The shares of others that it reads are found anew with the contacts.
 void StageShares::share_anew(const std::vector<Node>* moving, const StageStep& here) {
   const std::string before = loads_;
   share(moving);

@@ -9,7 +9,7 @@ namespace cdem {
 
 struct Renewed; // broad_phase/renewed.hpp
 
-// What is known of movers that go on is carried over.
+// Knowledge of movers that go on is carried over.
 void find_fragments(const Model&, const State&, Movers&, MoverMotion&);
 
 // m/s, per mover, of its fastest node; of a block that has broken the fastest of its nodes.

@@ -1,4 +1,4 @@
-// What the contacts of a step do.
+// Effects of the contacts of a step.
 #pragma once
 
 #include "libcdem/contact/data/rigid_sums.hpp"

@@ -23,14 +23,14 @@ inline constexpr double shallow_ratio = 0.01;
 // Largest depth of a contact, over the height of a tet.
 inline constexpr double depth_ratio = 0.25;
 
-// What a stage wants of its contacts.
+// A stage's wishes of its contacts.
 struct ContactOptions {
   bool looks_at_all = false; // in every step, after a search of all movers: for tests of what is skipped
   // Tangent of the largest friction angle of any contact, for a stage that wants less than joints give.
   double most_friction = std::numeric_limits<double>::infinity();
 };
 
-// What the surfaces of the model are like; written by start_contact.
+// Sizes of the model's surfaces; written by start_contact.
 struct SurfaceSizes {
   double usual_height = 0; // m, of a tet at any surface: of skins, which change no force
   // m, per block, a part of what is usual at its own surface: so deep contacts may begin, and the least reach of a row.
@@ -57,11 +57,11 @@ struct Searches {
   std::int64_t count = 0;
 };
 
-// What lies beyond the faces of tets of blocks that have broken.
+// Neighbours of tets of blocks that have broken.
 struct TetsBeyond {
   static constexpr int none = -1, deep = -2; // it is the surface; the tet has no node on the surface
   std::vector<int> neighbours;               // mesh_neighbours; empty before any block has broken
-  // Of each tet of the mesh, by face (geom::tet_faces): the tet that whole bonds, or nodes, hold to it there; or why there is none.
+  // By tet of the mesh and by its faces (geom::tet_faces): the tet that whole bonds, or nodes, hold to it there; or why there is none.
   std::vector<std::array<int, 4>> of_tet;
 };
 
