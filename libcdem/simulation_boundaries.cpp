@@ -46,7 +46,7 @@ void Simulation::Impl::add_boundary(const Selection& on, const std::function<voi
   State& state = changing();
   Workspace work(model, state, conditions);
   update_external(work.resolved, state.time, &state.velocity);
-  const std::vector<Node> net = net_forces(model, state, work);
+  const std::vector<Node> net = net_forces(model, state, work, threads);
   const ResolvedConditions after = resolve(model, state, changed);
   state.support_force.resize(model.node_position.size());
   keep_reactions(work, net, after, state.support_force);

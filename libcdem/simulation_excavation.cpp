@@ -23,7 +23,7 @@ struct Forces {
 Forces forces_now(const Model& model, const State& state) {
   Workspace work(model, state, {});
   Forces forces;
-  forces.inner = inner_forces(model, state, work);
+  forces.inner = inner_forces(model, state, work, 1);
   forces.contact = work.contact.loads.force;
   forces.on_rigid = work.contact.loads.on_rigid;
   return forces;

@@ -11,6 +11,7 @@
 #include "libcdem/results/energy.hpp"
 #include "libcdem/simulation.hpp"
 #include "libcdem/step/stage.hpp"
+#include "libcdem/step/support_forces.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ struct Simulation::Impl {
   int threads = 1;
   int stage = 0;
   bool in_stage = false; // which `stage` counts already
+  std::shared_ptr<SeenForces> seen = std::make_shared<SeenForces>(); // of the last stage
   double last_residual = 0;
   std::size_t watches = 0; // made by the script so far
 
@@ -99,6 +101,7 @@ struct Simulation::Impl {
     StageContext context =
         stage_context(model, kept, conditions, log, last_good, *observer, threads, ++stage);
     context.checkpoints = checkpoints;
+    seen = context.seen;
     return context;
   }
 

@@ -1,6 +1,5 @@
 // What a Simulation tells of itself.
 #include "libcdem/simulation_impl.hpp"
-#include "libcdem/step/support_forces.hpp"
 
 #include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/element/small_strain.hpp"
@@ -154,15 +153,15 @@ double Simulation::at(const std::string& field, const geom::Vec3& place) const {
 
 Unbalance Simulation::unbalance(std::optional<double> reference) const {
   Impl& s = *impl_;
-  Workspace work(s.model, s.whole(), s.conditions);
+  Workspace work(s.model, s.whole(), s.conditions, s.seen->contacts);
   update_external(work.resolved, s.whole().time, &s.whole().velocity);
-  return cdem::unbalance(s.model, work.resolved, net_forces(s.model, s.whole(), work), s.conditions.gravity,
-                         reference);
+  return cdem::unbalance(s.model, work.resolved, net_forces(s.model, s.whole(), work, s.threads),
+                         s.conditions.gravity, reference);
 }
 
 geom::Vec3 Simulation::reaction(const Selection& on) const {
   Impl& s = *impl_;
-  return SupportForces(s.model, s.whole(), s.conditions).reaction(on);
+  return cdem::reaction(s.model, s.whole(), s.conditions, s.threads, *s.seen, on);
 }
 
 std::vector<Simulation::BlockRow> Simulation::blocks() const {

@@ -20,10 +20,6 @@ void add_exactly(const geom::Vec3& more, std::array<ExactSum, 3>& sums) {
     sums[axis].add(more[axis]);
 }
 
-geom::Vec3 values(const std::array<ExactSum, 3>& sums) {
-  return {sums[0].value(), sums[1].value(), sums[2].value()};
-}
-
 // The deepest; of equals the one of the first triangle, whichever rank has found it.
 void add_depths(const ContactSums& more, ContactSums& sums) {
   sums.depth = std::max(sums.depth, more.depth);

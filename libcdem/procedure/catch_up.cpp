@@ -36,7 +36,7 @@ void catch_up_velocities(const Model& model, State& state, const Conditions& con
   keep_held_velocities(state, r);
   advance_columns(r, state, {state.time, kick.time_step, kick.kick});
   update_external(r, state.time, &state.velocity);
-  const std::vector<Node> force = inner_forces(model, state, work);
+  const std::vector<Node> force = inner_forces(model, state, work, 1);
   const std::vector<double> viscous = viscous_forces(model);
   const auto nodes = [&](Range part) {
     MovingNodes moving =

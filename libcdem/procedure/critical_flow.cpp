@@ -121,8 +121,9 @@ private:
   void begin(SearchPart);
   StageContext with_flow() const {
     const StageContext& c = without_flow_;
-    return {c.model,  c.state,       conditions_,     c.log,  c.last_good,       c.observer,   c.threads,
-            c.number, c.checkpoints, c.restart_point, c.from, c.procedure_state, c.renumbered, c.changing};
+    return {c.model,    c.state,           conditions_,  c.log,         c.last_good,
+            c.observer, c.threads,         c.number,     c.checkpoints, c.restart_point,
+            c.from,     c.procedure_state, c.renumbered, c.seen,        c.changing};
   }
   void measure();
   void look();

@@ -43,37 +43,37 @@ const Node* block_forces(const Model& model, const State& state, const Workspace
   return force.data();
 }
 
-std::vector<Node> inner_forces(const Model& model, const State& state, Workspace& work) {
+std::vector<Node> inner_forces(const Model& model, const State& state, Workspace& work, int threads) {
   State copy = state; // bookkeeping of springs and faces stays as it is
-  work.contact.due = true;
-  contact_forces(model, copy, work.contact, 1);
-  for (std::size_t c = 0; c < model.point_chunks.size(); ++c)
-    spring_forces(model, copy, work.bond, static_cast<std::int64_t>(c), false);
+  contact_forces(model, copy, work.contact, threads);
+  for_chunks(static_cast<std::int64_t>(model.point_chunks.size()), threads,
+             [&](std::int64_t c) { spring_forces(model, copy, work.bond, c, false); });
   std::vector<Node> force(model.node_position.size());
-  for (std::size_t c = 0; c < model.mesh.chunks.size(); ++c) {
+  for_chunks(static_cast<std::int64_t>(model.mesh.chunks.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (is_rigid(model, chunk)) { // only interfaces pull at its nodes
       if (chunk.stars)
         add_bond_forces(model, work.bond.force(), chunk.nodes, force.data() + chunk.nodes.begin);
-      continue;
+      return;
     }
-    const Node* const at = mesh_forces(model, copy, work, static_cast<std::int64_t>(c), false);
+    const Node* const at = mesh_forces(model, copy, work, c, false);
     std::copy(at, at + (chunk.inner_end - chunk.nodes.begin), force.begin() + chunk.nodes.begin);
-  }
+  });
   for (const MeshChunk& chunk : model.mesh.chunks)
     if (!is_rigid(model, chunk))
       each_shared_force(model.mesh, work, chunk, {}, [&](Range nodes, const Node* at) {
         std::copy(at, at + nodes.size(), force.begin() + nodes.begin);
       });
-  for (std::size_t c = 0; c < model.chunks.size() - model.mesh.chunks.size(); ++c) {
-    const Node* const at = block_forces(model, copy, work, static_cast<std::int64_t>(c));
-    std::copy(at, at + model.chunks[c].nodes.size(), force.begin() + model.chunks[c].nodes.begin);
-  }
+  for_chunks(static_cast<std::int64_t>(model.chunks.size() - model.mesh.chunks.size()), threads,
+             [&](std::int64_t c) {
+               const Node* const at = block_forces(model, copy, work, c);
+               std::copy(at, at + model.chunks[c].nodes.size(), force.begin() + model.chunks[c].nodes.begin);
+             });
   return force;
 }
 
-std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work) {
-  std::vector<Node> force = inner_forces(model, state, work);
+std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work, int threads) {
+  std::vector<Node> force = inner_forces(model, state, work, threads);
   const ResolvedConditions& r = work.resolved;
   for (std::size_t i = 0; i < force.size(); ++i) {
     if (!work.contact.loads.force.empty())

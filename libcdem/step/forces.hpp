@@ -11,11 +11,11 @@ namespace cdem {
 const Node* block_forces(const Model&, const State&, const Workspace&, std::int64_t chunk);
 
 // N, of elements and springs at every node, where the nodes are now (n_nodes), without loads. The workspace gets the
-// forces of contacts.
-std::vector<Node> inner_forces(const Model&, const State&, Workspace&);
+// forces of contacts, where it does not have them (ContactWork::due).
+std::vector<Node> inner_forces(const Model&, const State&, Workspace&, int threads);
 
 // The same with loads and contacts, but for contacts of rigid bodies (ContactLoads::on_rigid); the workspace's loads are up
 // to date.
-std::vector<Node> net_forces(const Model&, const State&, Workspace&);
+std::vector<Node> net_forces(const Model&, const State&, Workspace&, int threads);
 
 } // namespace cdem

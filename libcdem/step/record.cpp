@@ -141,10 +141,12 @@ std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCr
   return static_cast<std::int64_t>(begun.broken.size());
 }
 
-void record_history(const Model& model, const State& state, const Conditions& conditions, RunLog& log,
-                    int stage, double residual, double kinetic) {
+void record_history(const StageContext& context, double residual, double kinetic) {
+  const Model& model = context.model;
+  const State& state = context.state;
+  RunLog& log = context.log;
   HistoryRow row;
-  row.stage = stage;
+  row.stage = context.number;
   row.step = state.step;
   row.time = state.time;
   row.residual = residual;
@@ -153,7 +155,6 @@ void record_history(const Model& model, const State& state, const Conditions& co
   row.broken_tension = log.broken_tension;
   row.broken_shear = log.broken_shear;
   std::optional<CracksByBody> cracked; // looked at once, and only where somebody asks
-  std::optional<SupportForces> supports;
   std::shared_ptr<const TetsByPlace> tets;
   for (const Probe& probe : log.probes) {
     if (!probe.on.empty()) {
@@ -162,9 +163,8 @@ void record_history(const Model& model, const State& state, const Conditions& co
         row.probes.push_back(momentum_of(model, state, probe.body)[axis]);
         continue;
       }
-      if (!supports)
-        supports.emplace(model, state, conditions);
-      row.probes.push_back(supports->reaction(place_of_support(model, probe.on))[axis]);
+      row.probes.push_back(reaction(model, state, context.conditions, context.threads, *context.seen,
+                                    place_of_support(model, probe.on))[axis]);
       continue;
     }
     if (probe.crack.empty()) {

@@ -3,6 +3,7 @@
 
 #include "libcdem/fracture/begin_cracks.hpp"
 #include "libcdem/results/log.hpp"
+#include "libcdem/step/stage_context.hpp"
 #include "libcdem/step/workspace.hpp"
 
 namespace cdem {
@@ -18,8 +19,7 @@ std::int64_t record_begun_cracks(const Model&, State&, const BegunCracks&, RunLo
                                  std::int64_t step);
 
 // kinetic: J. Probes read stresses: they have to be caught up.
-void record_history(const Model&, const State&, const Conditions&, RunLog&, int stage, double residual,
-                    double kinetic);
+void record_history(const StageContext&, double residual, double kinetic);
 
 // Bodies that touch now are taken out of RunLog::unmet.
 void strike_out_met(const Model&, const State&, RunLog&);

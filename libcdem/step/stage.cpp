@@ -368,8 +368,7 @@ void Stage::sample_start() {
   if (!begins_)
     view.emplace(*this, SynchronisedView::Of::whole);
   see_whole();
-  record_history(context_.model, context_.state, context_.conditions, log, context_.number, 0,
-                 kinetic_energy(context_.model, context_.state));
+  record_history(context_, 0, kinetic_energy(context_.model, context_.state));
   sampled_start_ = true;
 }
 
@@ -379,8 +378,7 @@ void Stage::sample() {
     view.emplace(*this, SynchronisedView::Of::whole);
   else if (!context_.state.water_pressure.empty())
     see_whole();
-  record_history(context_.model, context_.state, context_.conditions, context_.log, context_.number,
-                 report.residual, report.sums.kinetic);
+  record_history(context_, report.residual, report.sums.kinetic);
 }
 
 void Stage::tell(bool last) {

@@ -1,10 +1,13 @@
 #include "libcdem/step/stage_context.hpp"
 
+#include "libcdem/step/support_forces.hpp"
+
 namespace cdem {
 
 StageContext stage_context(Model& model, State& state, const Conditions& conditions, RunLog& log,
                            State& last_good, Observer& observer, int threads, int number) {
   StageContext context{model, state, conditions, log, last_good, observer, threads, number};
+  context.seen = std::make_shared<SeenForces>();
   context.changing = &model;
   return context;
 }

@@ -9,9 +9,12 @@
 #include "libcdem/step/restart_point.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace cdem {
+
+struct SeenForces; // step/support_forces.hpp
 
 struct StageContext {
   const Model& model;
@@ -28,6 +31,7 @@ struct StageContext {
   std::function<std::string()> procedure_state{}; // as it is now; empty: a stage of one loop
   // Nodes have other numbers from now on: per node, which it was before. May be empty.
   std::function<void(const std::vector<int>&)> renumbered{};
+  std::shared_ptr<SeenForces> seen{}; // filled while somebody looks at the stage
   Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
 };
 

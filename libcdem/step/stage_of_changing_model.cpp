@@ -125,7 +125,7 @@ void Stage::change_nodes(Freed freed) {
   if (std::find(freed.anew.begin(), freed.anew.end(), 1) == freed.anew.end())
     return;
   const BondWork bond = work.bond; // what springs lose in the step to come begins with the one before
-  preload_faces(model, state, net_forces(model, state, work), freed.anew);
+  preload_faces(model, state, net_forces(model, state, work, context_.threads), freed.anew);
   work.bond = bond;
   start_contacts(true);
 }

@@ -11,6 +11,7 @@ void Stage::make_steps(Procedure& by) {
 
 // Each line is one of StepTimes, or counts to the next that is.
 void Stage::make_step(Procedure& by) {
+  progress_.times.end(StepLine::others);
   const double began = context_.state.time;
   const bool renewed = renew_interfaces();        // of blocks that have slid past each other: other springs
   const bool freed = split_nodes(by.time_step()); // of cohesive bodies, where faces near their strength

@@ -9,7 +9,7 @@ namespace cdem {
 const char* name(StepLine line) {
   constexpr const char* names[step_lines] = {"contact search", "contacts", "loads",        "cracks",
                                              "bonds",          "elements", "shared nodes", "rigid bodies",
-                                             "ranks",          "watch",    "others"};
+                                             "ranks",          "watch",    "callbacks"};
   return names[static_cast<std::size_t>(line)];
 }
 

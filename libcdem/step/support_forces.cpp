@@ -10,11 +10,13 @@
 
 namespace cdem {
 
-SupportForces::SupportForces(const Model& model, const State& state, const Conditions& conditions)
-    : model_(model), work_(model, state, conditions), boundary_(state.support_force), state_(state) {
+SupportForces::SupportForces(const Model& model, const State& state, const Conditions& conditions,
+                             int threads, const ContactLoads* contacts)
+    : model_(model), work_(model, state, conditions, contacts), boundary_(state.support_force),
+      state_(state) {
   find_side_forces(work_.resolved, state);
   update_external(work_.resolved, state.time, &state.velocity);
-  net_ = net_forces(model, state, work_);
+  net_ = net_forces(model, state, work_, threads);
   for (const std::size_t i : work_.resolved.boundary_loads) {
     const VaryingLoad& load = work_.resolved.varying[i];
     const double factor = load.amplitude(state.time);
@@ -39,8 +41,8 @@ geom::Vec3 SupportForces::reaction(const Selection& on) const {
     const Block& block = model_.blocks[model_.rigid[rigid].block];
     for (int i = block.node_begin; i < block.node_end; ++i)
       sum -= vec(net_[i]);
-    sum -= work_.contact.loads.on_rigid.empty() ? geom::Vec3(0, 0, 0)
-                                                : work_.contact.loads.on_rigid[rigid].force;
+    if (!work_.contact.loads.rigid_sums.empty()) // known to all ranks
+      sum -= values(work_.contact.loads.rigid_sums[rigid].force);
   }
   for (const HeldNode& h : work_.resolved.held) {
     if (!std::binary_search(nodes.begin(), nodes.end(), h.node) ||
@@ -57,6 +59,15 @@ geom::Vec3 SupportForces::reaction(const Selection& on) const {
     for (const int node : nodes)
       sum += vec(boundary_[node]);
   return sum;
+}
+
+geom::Vec3 reaction(const Model& model, const State& state, const Conditions& conditions, int threads,
+                    SeenForces& seen, const Selection& on) {
+  if (!seen.contacts)
+    return SupportForces(model, state, conditions, threads).reaction(on);
+  if (!seen.supports)
+    seen.supports.emplace(model, state, conditions, threads, seen.contacts);
+  return seen.supports->reaction(on);
 }
 
 geom::Vec3 momentum_of(const Model& model, const State& state, int body) {

@@ -4,6 +4,8 @@
 #include "libcdem/results/log.hpp"
 #include "libcdem/step/workspace.hpp"
 
+#include <optional>
+
 namespace cdem {
 
 // N, of what holds the model from outside: supports, as their nodes would need it else; quiet boundaries and free fields,
@@ -14,7 +16,9 @@ namespace cdem {
 // old in a run). A node of an edge counts in both its sides.
 class SupportForces {
 public:
-  SupportForces(const Model&, const State&, const Conditions&);
+  // contacts: as of a Workspace.
+  SupportForces(const Model&, const State&, const Conditions&, int threads,
+                const ContactLoads* contacts = nullptr);
   geom::Vec3 reaction(const Selection&) const; // throws geom::InputError when it holds no nodes
 
 private:
@@ -25,6 +29,15 @@ private:
       boundary_; // N, what boundaries do beside their dashpots (n_nodes); empty without boundaries
   const State& state_;
 };
+
+// What all who look at a stage between two steps share (SynchronisedView).
+struct SeenForces {
+  const ContactLoads* contacts = nullptr; // of the present places; null: nobody looks
+  std::optional<SupportForces> supports;  // found by the first who asks
+};
+// N; found anew where nobody looks at a stage. Throws geom::InputError when the selection holds no nodes.
+geom::Vec3 reaction(const Model&, const State&, const Conditions&, int threads, SeenForces&,
+                    const Selection&);
 
 geom::Vec3 momentum_of(const Model&, const State&, int body); // N s
 

@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/data/tet_contacts.hpp"
 #include "libcdem/ranks/looks.hpp"
+#include "libcdem/step/support_forces.hpp"
 
 namespace cdem {
 namespace {
@@ -42,6 +43,7 @@ SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
   stage.synchronise_stress(of_view);
   if (what == Of::whole)
     stage.see_whole();
+  stage.context_.seen->contacts = &work.contact.loads;
 }
 
 void SynchronisedView::require_same_looks() const {
@@ -49,6 +51,8 @@ void SynchronisedView::require_same_looks() const {
 }
 
 SynchronisedView::~SynchronisedView() {
+  stage_.context_.seen->contacts = nullptr;
+  stage_.context_.seen->supports.reset();
   stage_.work.shared->look_at(stage_.context_.state);
   if (!kept_)
     return;

@@ -4,7 +4,8 @@
 
 namespace cdem {
 
-Workspace::Workspace(const Model& model, const State& state, const Conditions& conditions)
+Workspace::Workspace(const Model& model, const State& state, const Conditions& conditions,
+                     const ContactLoads* contacts)
     : resolved(resolve(model, state, conditions)), bond(model, state), node_sums(model.chunks.size()),
       rigid_sums(model.rigid.size()), rigid_angle(model.rigid.size(), geom::Vec3::Zero()) {
   if (!model.mesh.empty()) {
@@ -14,7 +15,11 @@ Workspace::Workspace(const Model& model, const State& state, const Conditions& c
     for (const MeshChunk& chunk : model.mesh.chunks)
       has_shared_nodes = has_shared_nodes || (!chunk.stars && chunk.inner_end < chunk.nodes.end);
   }
-  start_contact(model, contact);
+  contact.due = !contacts;
+  if (contacts)
+    contact.loads = *contacts;
+  else
+    start_contact(model, contact);
   share(std::make_shared<SharedState>(model));
 }
 

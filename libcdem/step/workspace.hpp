@@ -14,7 +14,8 @@
 namespace cdem {
 
 struct Workspace {
-  Workspace(const Model&, const State&, const Conditions&);
+  // contacts: of the places where the nodes are; null: nobody knows them, and they are to be searched for.
+  Workspace(const Model&, const State&, const Conditions&, const ContactLoads* contacts = nullptr);
 
   ResolvedConditions resolved;
   BondWork bond;

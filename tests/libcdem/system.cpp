@@ -9,6 +9,7 @@
 #include "libcdem/ranks/ranks.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
+#include "libcdem/step/stage_context.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 
 #include <catch2/catch.hpp>
@@ -183,7 +184,7 @@ std::vector<geom::Vec3> System::net_forces() const {
   cdem::update_external(work.resolved, state.time);
   cdem::start_spring_forces(model, state, work.bond);
   std::vector<geom::Vec3> forces;
-  for (const cdem::Node& f : cdem::net_forces(model, state, work))
+  for (const cdem::Node& f : cdem::net_forces(model, state, work, 1))
     forces.push_back(vec(f));
   return forces;
 }

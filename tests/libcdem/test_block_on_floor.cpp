@@ -62,6 +62,26 @@ TEST_CASE("a block of one body rebounds from a block of another with the restitu
   CHECK(s.mean("velocity.z", cdem::Selection::of_body("block")) == Approx(restitution).margin(0.02));
 }
 
+// A stage knows its contacts already; after it they are searched for.
+TEST_CASE("the reaction that is read in a run is that of the same state after it", "[supports]") {
+  const cdem::Element floor = GENERATE(cdem::Element::rigid, cdem::Element::finite_volume),
+                      block = GENERATE(cdem::Element::rigid, cdem::Element::finite_volume);
+  cdem::Simulation s = on_held_floor(
+      {box("floor", {3, 3, 1}, {-1.3, -1.2, -1}, floor), box("block", {1, 1, 1}, {0, 0, 0}, block)},
+      floor_law(0.5));
+  s.gravity(gravity({3, 0, -9.81}));
+  const cdem::Selection foot = cdem::Selection::of_body("floor");
+  Vec3 read = Vec3::Zero();
+  cdem::RunOptions options;
+  options.duration = 2e-3;
+  options.callback_every = 1;
+  options.callback = [&] { read = s.reaction(foot); };
+  s.run(options);
+  const double weight = rock().density * g;
+  CHECK(read.z() > 0.1 * weight);
+  CHECK((read - s.reaction(foot)).norm() < 1e-9 * weight);
+}
+
 TEST_CASE("the reaction of a floor is its weight and that of what stands on it", "[supports]") {
   const cdem::Element floor = GENERATE(cdem::Element::rigid, cdem::Element::finite_volume);
   const bool by_its_foot = GENERATE(false, true);

@@ -147,6 +147,14 @@ TEST_CASE("cohesive loading: a bar torn in two carries pressure again when it is
     CHECK(stiffness == Approx(1).epsilon(0.03));
   }
   CHECK(machine.s->energy().balance_error() < 1e-3);
+  // A reaction that is read in a run takes the contacts that the stage knows; one after it searches for them.
+  Vec3 read = Vec3::Zero();
+  cdem::RunOptions options;
+  options.duration = 1e-5;
+  options.callback_every = 1;
+  options.callback = [&] { read = machine.s->reaction(above); };
+  machine.s->run(options);
+  CHECK((read - machine.s->reaction(above)).norm() < 1e-9 * std::abs(last.traction) * machine.area);
 }
 
 TEST_CASE("cohesive loading: unloading and loading again follow the secant and take nothing",

@@ -239,7 +239,7 @@ TEST_CASE("the reaction of a quiet boundary is the traction of the waves there",
   options.duration = 2 * height / speed;
   options.callback_every = 5;
   options.callback = [&] {
-    const cdem::SupportForces forces(s.model, s.state, s.conditions);
+    const cdem::SupportForces forces(s.model, s.state, s.conditions, 1);
     at_foot = std::max(at_foot, forces.reaction(bottom.on).z());
     at_top = std::min(at_top, forces.reaction(cdem::Selection::side("z+")).z());
   };

@@ -2,10 +2,15 @@
 #pragma once
 
 #include "libcdem/parallel/exact_sum.hpp"
+#include "libgeom/core/types.hpp"
 
 #include <array>
 
 namespace cdem {
+
+inline geom::Vec3 values(const std::array<ExactSum, 3>& sums) {
+  return {sums[0].value(), sums[1].value(), sums[2].value()};
+}
 
 struct RigidSums {
   std::array<ExactSum, 3> force, torque; // N, N m about the centroid
