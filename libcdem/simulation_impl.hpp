@@ -32,7 +32,7 @@ struct Simulation::Impl {
   int threads = 1;
   int stage = 0;
   bool in_stage = false; // which `stage` counts already
-  std::shared_ptr<SeenForces> seen = std::make_shared<SeenForces>(); // of the last stage
+  std::shared_ptr<SeenForces> seen = nobody_looks(); // of the last stage
   double last_residual = 0;
   std::size_t watches = 0; // made by the script so far
 

@@ -10,9 +10,11 @@ std::vector<double> viscous_forces(const Model& model) {
                   [](const Body& body) { return body.material.viscosity == 0; }))
     return viscous;
   viscous.reserve(model.node_position.size());
-  for (int i = 0; i < static_cast<int>(model.node_position.size()); ++i)
-    viscous.push_back(model.bodies[model.blocks[block_of(model, i)].body].material.viscosity *
-                      node_volume(model, i));
+  for (int i = 0; i < static_cast<int>(model.node_position.size()); ++i) {
+    const Elastic& material = model.bodies[model.blocks[block_of(model, i)].body].material;
+    viscous.push_back(material.viscosity *
+                      (model.node_mass[i] / material.density)); // every motion fades alike
+  }
   return viscous;
 }
 

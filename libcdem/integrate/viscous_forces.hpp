@@ -1,4 +1,4 @@
-// Viscosity of materials at nodes, which resists their velocity: mu V.
+// Viscosity of materials at nodes, which resists their velocity: mu m / rho, so that every motion fades at the rate mu / rho.
 #pragma once
 
 #include "libcdem/model/model.hpp"

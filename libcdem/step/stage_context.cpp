@@ -4,10 +4,13 @@
 
 namespace cdem {
 
+std::shared_ptr<SeenForces> nobody_looks() {
+  return std::make_shared<SeenForces>();
+}
+
 StageContext stage_context(Model& model, State& state, const Conditions& conditions, RunLog& log,
                            State& last_good, Observer& observer, int threads, int number) {
   StageContext context{model, state, conditions, log, last_good, observer, threads, number};
-  context.seen = std::make_shared<SeenForces>();
   context.changing = &model;
   return context;
 }

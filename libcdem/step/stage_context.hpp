@@ -15,6 +15,7 @@
 namespace cdem {
 
 struct SeenForces; // step/support_forces.hpp
+std::shared_ptr<SeenForces> nobody_looks();
 
 struct StageContext {
   const Model& model;
@@ -31,7 +32,7 @@ struct StageContext {
   std::function<std::string()> procedure_state{}; // as it is now; empty: a stage of one loop
   // Nodes have other numbers from now on: per node, which it was before. May be empty.
   std::function<void(const std::vector<int>&)> renumbered{};
-  std::shared_ptr<SeenForces> seen{}; // filled while somebody looks at the stage
+  std::shared_ptr<SeenForces> seen = nobody_looks(); // filled while somebody looks at the stage
   Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
 };
 

@@ -60,11 +60,11 @@ private:
   void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
   double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
-  // Motion of one side of a contact: the velocity that restitution uses, m/s, and the accelerations that the forces on
-  // its block can give it, and the contact's own place, m/s2. force: N, of this contact.
+  // Motion of one side of a contact: the velocity that restitution uses, m/s, and the accelerations, m/s2, that the forces on
+  // its block can give it, and this contact its nodes. force: N, of this contact.
   struct SideMotion {
     geom::Vec3 velocity;
-    double acceleration = 0, own_acceleration = 0;
+    double acceleration = 0, local_acceleration = 0;
   };
   SideMotion motion_of_side(const ContactTriangle& side, const int* nodes, const double* weights, int count,
                             double force) const;

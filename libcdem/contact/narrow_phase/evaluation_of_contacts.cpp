@@ -25,12 +25,13 @@ Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, c
   if (work_.motion.last_displacement[block] == 0)
     return {velocity}; // held: it does not turn round
   const Block& b = model_.blocks[block];
-  const double whole = work_.block_forces[block] / (b.mass.volume * density);
-  const double own = whole + (b.rigid >= 0 ? 0 : force * local);
-  const BlockMotion& motion = work_.block_motion[block];
-  if (motion.whole)
-    return {motion.velocity + motion.spin.cross(place - motion.centroid), whole, own};
-  return {velocity, own, own};
+  SideMotion side_motion{velocity, work_.block_forces[block] / (b.mass.volume * density),
+                         b.rigid >= 0 ? 0 : force * local};
+  if (const BlockMotion& motion = work_.block_motion[block]; motion.whole)
+    side_motion.velocity = motion.velocity + motion.spin.cross(place - motion.centroid);
+  else
+    side_motion.acceleration += side_motion.local_acceleration;
+  return side_motion;
 }
 
 void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const ContactArms& arms,
@@ -42,12 +43,13 @@ void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const Con
   motion.acceleration = source.acceleration + target.acceleration;
   const double rests = part_at_rest(c, motion), closing = -velocity.dot(motion.normal), // m/s
       approach = (target.velocity - source.velocity).dot(motion.normal);
-  motion.approach = part_of((1 - rests) * approach + rests * closing, reversible_speed(c, motion));
-  // Bodies that part faster than that are no bodies at rest, and nothing turns round.
-  motion.held_at_most =
-      motion.approach <= -1
-          ? 1
-          : std::abs(part_of(2 * closing, work_.step * (source.own_acceleration + target.own_acceleration)));
+  const double reversed = reversible_speed(c, motion);
+  motion.approach = part_of((1 - rests) * approach + rests * closing, reversed);
+  // Bodies that part faster than that are no bodies at rest.
+  motion.held_at_most = approach <= -reversed
+                            ? 1
+                            : part_held(law, closing, work_.step * motion.acceleration,
+                                        work_.step * (source.local_acceleration + target.local_acceleration));
 }
 
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,

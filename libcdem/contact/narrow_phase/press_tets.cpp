@@ -259,7 +259,7 @@ private:
       motion.turned = push.turned[lane];
       const double closing = push.closing[lane];
       if (work_.restitution && law.damping_ratio > 0)
-        set_approach(c, closing, force * push.compliance[lane], motion);
+        set_approach(c, law, closing, force * push.compliance[lane], motion);
       const double damping = c.damping;
       if (damping > 0) // stores the same in the spring of now
         c.damping *= std::sqrt(law.kn / c.stiffness);
@@ -294,12 +294,12 @@ private:
   }
 
   // As for semi-springs: by the acceleration that the contact's own force gives the two tetrahedra.
-  void set_approach(const Contact& c, double closing, double acceleration, ContactMotion& motion) const {
+  void set_approach(const Contact& c, const ContactLaw& law, double closing, double acceleration,
+                    ContactMotion& motion) const {
     motion.step = work_.step;
     motion.acceleration = acceleration;
     motion.approach = part_of(closing, work_.step * reversible_speed(c, motion));
-    motion.held_at_most =
-        motion.approach <= -1 ? 1 : std::abs(part_of(2 * closing, work_.step * work_.step * acceleration));
+    motion.held_at_most = part_held(law, closing, 0, work_.step * work_.step * acceleration);
   }
 
   // What its shear force and its damping stored is lost; its potential has given back what it had.
