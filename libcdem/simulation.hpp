@@ -284,7 +284,7 @@ public:
   // On a Simulation built from the same ModelSpec; throws geom::InputError on another. A stage that was left is
   // begun again by the next solving call, which must be the same, and goes on where it was left.
   void restore(const std::string& saved);
-  // Takes the state alone: neither log nor stages.
+  // Takes the state, with what broke on the way to it and how large its energies were: neither histories nor stages.
   void restore_state(const std::string& saved);
   // Who is asked for checkpoints during solving calls; must outlive them. Null: nobody.
   void set_checkpoint_writer(CheckpointWriter*);

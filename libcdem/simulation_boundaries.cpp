@@ -39,10 +39,13 @@ void Simulation::Impl::add_boundary(const Selection& on, const std::function<voi
   const auto same = [&](const Fix& fix) { return selects_same(fix.on, on); };
   changed.fixes.erase(std::remove_if(changed.fixes.begin(), changed.fixes.end(), same), changed.fixes.end());
   add(changed);
+  Conditions own;
+  add(own);
   if (replaying) {
     conditions = std::move(changed);
     return;
   }
+  require_places(model, own);
   State& state = changing();
   Workspace work(model, state, conditions);
   update_external(work.resolved, state.time, &state.velocity);

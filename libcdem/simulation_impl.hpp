@@ -165,7 +165,7 @@ struct Simulation::Impl {
         tried.fixes = conditions.fixes;
       Conditions own;
       add(own);
-      refuse_gone(model, own);
+      require_places(model, own);
       add(tried);
       resolve(model, whole(), tried);
     }

@@ -121,21 +121,26 @@ void Simulation::Impl::take(std::string_view saved, bool state_only) {
   last_good = ends ? std::move(state_at_end) : kept;
   end_of_run = std::move(end_then);
   from.reset();
-  if (state_only) {
-    if (end_of_run) {
-      end_of_run->point.breaks = log.breaks.size();
-      end_of_run->point.one_way = log.one_way;
-      require_whole(model, log, end_of_run->point);
-    }
+  int stage_then = 0;
+  archive(a, stage_then);
+  if (stage_then < 0)
+    Reader::refuse();
+  RunLog log_then;
+  read(a, log_then);
+  require_whole(model, log_then);
+  if (end_of_run)
+    require_whole(model, log_then, end_of_run->point);
+  if (state_only) { // with what belongs to the state: what broke on the way to it, and how large energies were
+    log.breaks = std::move(log_then.breaks);
+    log.broken_tension = log_then.broken_tension;
+    log.broken_shear = log_then.broken_shear;
+    log.told_tension = log_then.told_tension;
+    log.told_shear = log_then.told_shear;
+    log.one_way = log_then.one_way;
     return;
   }
-  archive(a, stage);
-  if (stage < 0)
-    Reader::refuse();
-  read(a, log);
-  require_whole(model, log);
-  if (end_of_run)
-    require_whole(model, log, end_of_run->point);
+  stage = stage_then;
+  log = std::move(log_then);
   bool midway = false;
   archive(a, midway);
   if (midway) {

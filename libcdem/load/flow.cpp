@@ -106,12 +106,7 @@ std::vector<FlowCorner> flow_corners(const Model& model, const State& state, con
 std::vector<int> flow_faces(const Model& model, const Flow& flow) {
   std::vector<int> faces;
   const auto take = [&](const Selection& on) {
-    if (is_gone(model, on))
-      return;
     const std::vector<int> here = selected_outer_faces(model, on);
-    if (here.empty())
-      throw geom::InputError("on", on.text, "a place that holds outer faces",
-                             "nothing of the model lies there; `cdem check` prints the model's box");
     faces.insert(faces.end(), here.begin(), here.end());
   };
   take(flow.on);

@@ -19,18 +19,29 @@ bool is_gone(const Model& model, const Selection& on) {
                       [&](const Block& block) { return block.body == body; });
 }
 
-void refuse_gone(const Model& model, const Conditions& conditions) {
-  const auto refuse = [&](const auto& of_a_kind) {
-    for (const auto& condition : of_a_kind)
-      if (is_gone(model, condition.on))
-        throw geom::InputError("on", condition.on.text, "a body of which something is left",
-                               "all of \"" + condition.on.body + "\" has been removed");
+void require_places(const Model& model, const Conditions& conditions) {
+  const auto require = [&](const Selection& on, const char* what, const auto& selected) {
+    if (is_gone(model, on))
+      throw geom::InputError("on", on.text, "a body of which something is left",
+                             "all of \"" + on.body + "\" has been removed");
+    if (selected(model, on).empty())
+      throw geom::InputError("on", on.text, std::string("a place that holds ") + what,
+                             "nothing of the model lies there; `cdem check` prints the model's box");
   };
-  refuse(conditions.fixes);
-  refuse(conditions.tractions);
-  refuse(conditions.forces);
-  refuse(conditions.flows);
-  refuse(conditions.crack_pressures);
+  const auto require_nodes = [&](const auto& of_a_kind) {
+    for (const auto& condition : of_a_kind)
+      require(condition.on, "nodes", selected_nodes);
+  };
+  const auto require_faces = [&](const auto& of_a_kind) {
+    for (const auto& condition : of_a_kind)
+      require(condition.on, "outer faces", selected_outer_faces);
+  };
+  require_nodes(conditions.fixes);
+  require_nodes(conditions.forces);
+  require_faces(conditions.tractions);
+  require_faces(conditions.flows);
+  require_faces(conditions.quiets);
+  require_faces(conditions.free_fields);
 }
 
 } // namespace cdem

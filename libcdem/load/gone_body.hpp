@@ -1,4 +1,4 @@
-// Conditions on bodies of which nothing is left in the model.
+// Places of conditions, of which nothing may be left in the model.
 #pragma once
 
 #include "libcdem/load/conditions.hpp"
@@ -10,7 +10,8 @@ struct Model;
 // All of a body that the selection names has been taken out of the model: the condition ends with it.
 bool is_gone(const Model&, const Selection&);
 
-// Throws geom::InputError where a support or load is on such a body.
-void refuse_gone(const Model&, const Conditions&);
+// Throws geom::InputError where a support or load acts on nothing. It is asked when the condition is given: where all of its
+// place is removed later, it acts on nothing from then on.
+void require_places(const Model&, const Conditions&);
 
 } // namespace cdem

@@ -19,9 +19,6 @@ geom::Mat3 wave_impedance(const Elastic& m, const geom::Vec3& normal) {
 
 std::vector<int> add_dashpots(const Model& model, const Selection& on, const char* call, Dashpots& dashpots) {
   std::vector<int> faces = selected_outer_faces(model, on);
-  if (faces.empty())
-    throw geom::InputError("on", on.text, "a place that holds outer faces",
-                           "nothing of the model lies there; `cdem check` prints the model's box");
   for (const int f : faces) {
     const OuterFace& face = model.outer_faces[f];
     const Block& block = model.blocks[face.block];

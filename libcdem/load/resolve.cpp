@@ -25,11 +25,6 @@ double& component(Node& node, int axis) {
   return axis == 0 ? node.x : axis == 1 ? node.y : node.z;
 }
 
-[[noreturn]] void selects_nothing(const char* what, const Selection& on) {
-  throw geom::InputError("on", on.text, std::string("a place that holds ") + what,
-                         "nothing of the model lies there; `cdem check` prints the model's box");
-}
-
 // Every node named by a fix, free or not.
 using HeldNodes = std::map<int, HeldNode>;
 
@@ -38,11 +33,9 @@ HeldNode free_node(int node) {
 }
 
 void hold(const Model& model, const Fix& fix, HeldNodes& held, ResolvedConditions& r) {
-  if (is_gone(model, fix.on))
-    return;
   const std::vector<int> nodes = selected_nodes(model, fix.on);
-  if (nodes.empty())
-    selects_nothing("nodes", fix.on);
+  if (nodes.empty()) // removed since
+    return;
   int varying = -1;
   if (fix.velocity && fix.amplitude && !fix.release) {
     varying = static_cast<int>(r.varying_holds.size());
@@ -115,11 +108,9 @@ std::optional<geom::Vec3> hold_rigid(const Model& model, const Block& block, int
 using Pattern = std::vector<std::pair<int, geom::Vec3>>;
 
 Pattern traction_pattern(const Model& model, const Traction& traction) {
-  if (is_gone(model, traction.on))
-    return {};
   const std::vector<int> faces = selected_outer_faces(model, traction.on);
-  if (faces.empty())
-    selects_nothing("outer faces", traction.on);
+  if (faces.empty()) // removed since
+    return {};
   if (traction.pressure)
     return pressure_pattern(model, faces, *traction.pressure);
   Pattern pattern;
@@ -132,11 +123,7 @@ Pattern traction_pattern(const Model& model, const Traction& traction) {
 // Shared in proportion to the volume around each node, so that the nodes of blocks that meet in one place move
 // together and a finer block does not attract more load.
 Pattern force_pattern(const Model& model, const PointForce& force) {
-  if (is_gone(model, force.on))
-    return {};
   const std::vector<int> nodes = selected_nodes(model, force.on);
-  if (nodes.empty())
-    selects_nothing("nodes", force.on);
   double volume = 0;
   for (const int node : nodes)
     volume += node_volume(model, node);

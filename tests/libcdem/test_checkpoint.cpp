@@ -239,6 +239,23 @@ TEST_CASE("checkpoint: a saved state is loaded without the log, and once for man
   }
 }
 
+TEST_CASE("checkpoint: a state that is loaded has the bonds that were broken then, and no more",
+          "[checkpoint]") {
+  cdem::Simulation s = plate(1);
+  const std::string saved = s.save();
+  relax(s);
+  const std::size_t broken = s.breaks().size();
+  const double fallen = s.impossible_energy(s.energy()).energy;
+  REQUIRE(broken > 0);
+  s.restore_state(saved);
+  CHECK(s.breaks().empty());
+  CHECK(s.told_broken() == std::array<std::int64_t, 2>{0, 0});
+  relax(s);
+  CHECK(s.breaks().size() == broken);
+  CHECK(s.impossible_energy(s.energy()).energy ==
+        fallen); // what the first relaxation lost does not count in the second
+}
+
 TEST_CASE("checkpoint: the checksum is XXH64", "[checkpoint]") {
   // Test vectors of the specification.
   CHECK(cdem::xxh64("", 0) == 0xEF46DB3751D8E999ull);

@@ -32,6 +32,26 @@ TEST_CASE("a column whose upper part is taken away carries what is left", "[exca
   CHECK(s.reaction(cdem::Selection::side("z-")).z() == Approx(3 * weight).epsilon(1e-4));
 }
 
+TEST_CASE("a condition whose whole place is removed acts on nothing from then on", "[excavation]") {
+  cdem::Simulation s = simulation(geom::grid({0.3, 0.1, 0.2}, {3, 1, 2}));
+  const cdem::Selection end = cdem::Selection::in_box(box(0.299, 0.301));
+  s.fix(fixed(cdem::Selection::side("x-")));
+  s.fix(fixed(end));
+  s.traction(traction(end, {0, 0, -1e4}));
+  s.force({end, {0, 0, -10}, {}});
+  s.gravity(gravity());
+  if (GENERATE(false, true))
+    s.release(end, axes("xyz"));
+  REQUIRE(s.relax({}).converged);
+  REQUIRE(s.remove(cdem::Selection::in_box(box(0.2, 0.4))) == 2);
+  REQUIRE(s.relax({}).converged);
+  CHECK(s.reaction(cdem::Selection::side("x-")).z() ==
+        Approx(4 * rock().density * 9.81 * 1e-3).epsilon(1e-3));
+  CHECK(s.fragments().size() == 1);
+  CHECK_THROWS_WITH(s.fix(fixed(end)), Catch::Contains("holds nodes")); // a new one is refused
+  CHECK_THROWS_WITH(s.traction(traction(end, {0, 0, -1e4})), Catch::Contains("outer faces"));
+}
+
 TEST_CASE("a chamber cut out of stressed rock closes in on itself and stays in balance", "[excavation]") {
   cdem::Joint joint = rock_joint();
   cdem::Simulation s = simulation(geom::grid({0.7, 0.1, 0.7}, {7, 1, 7}, {-0.35, 0, -0.35}), rock(), joint);
