@@ -63,6 +63,7 @@ struct ContactMotion {
   double acceleration = 0;                // m/s2, a of restitution
   // Part of the damping force, up to 1, that does not turn the contact's own motion round within the step.
   double held_at_most = 0;
+  bool in_relaxation = false; // its steps are no times, and it finds the contact at rest
 };
 
 // What a contact loses in a step, J, >= 0.
@@ -126,8 +127,11 @@ inline double reversible_speed(const Contact& c, const ContactMotion& m) {
 inline void advance_rest(Contact& c, const ContactMotion& m) {
   constexpr double time_scales = 60; // some ten oscillations, twenty times as long as an impact
   const double pressed = c.effective_penetration();
-  const double part = pressed > 0 ? m.step * std::sqrt(m.acceleration / pressed) / time_scales : 1;
-  c.at_rest += std::min(1.0, part) * (pressed - c.at_rest);
+  if (m.in_relaxation || !(pressed > 0))
+    c.at_rest = pressed;
+  else
+    c.at_rest +=
+        std::min(1.0, m.step * std::sqrt(m.acceleration / pressed) / time_scales) * (pressed - c.at_rest);
 }
 
 // Advances the force of restitution of a contact that is as deep as it is now. closing: m, in the step. Returns what it
