@@ -96,8 +96,8 @@ struct Simulation::Impl {
 
   StageContext next_stage() {
     warn_before_stage();
-    StageContext context =
-        stage_context(model, kept, conditions, log, last_good, *observer, threads, ++stage);
+    StageContext context{model, kept, conditions, log, last_good, *observer, threads, ++stage};
+    context.changing = &model;
     context.checkpoints = checkpoints;
     return context;
   }
