@@ -1,7 +1,4 @@
 // What a Simulation tells of itself.
-#include "libcdem/simulation_impl.hpp"
-#include "libcdem/step/support_forces.hpp"
-
 #include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
@@ -10,11 +7,16 @@
 #include "libcdem/model/unit_order.hpp"
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/ranks/looks.hpp"
+#include "libcdem/results/crack_surface.hpp"
+#include "libcdem/results/drawn_surface.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/free_surface.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/results/units.hpp"
+#include "libcdem/simulation_impl.hpp"
 #include "libcdem/step/forces.hpp"
+#include "libcdem/step/support_forces.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -205,6 +207,26 @@ const std::vector<HistoryRow>& Simulation::history() const {
   return impl_->log.history;
 }
 
+std::size_t Simulation::watch(const std::string& body, double leaves) {
+  Impl& s = *impl_;
+  Watch watch = start_watch(s.model, s.whole(), body, leaves);
+  if (s.watches == s.log.watches.size()) // else it has been restored
+    s.log.watches.push_back(std::move(watch));
+  return s.watches++;
+}
+
+const std::vector<Departure>& Simulation::departures(std::size_t watch) const {
+  return impl_->log.watches.at(watch).left;
+}
+
+std::vector<std::string> Simulation::dry_flows() const {
+  return impl_->warnings.dry_flows();
+}
+
+Deformation Simulation::deformation() const {
+  return largest_deformation(impl_->model, impl_->whole());
+}
+
 std::vector<std::string> Simulation::probe_names() const {
   std::vector<std::string> names;
   for (const Probe& probe : impl_->log.probes)
@@ -218,6 +240,86 @@ void Simulation::probe(const std::string& name, const std::string& field, const 
     if (probe.name == name)
       throw geom::InputError("name", "\"" + name + "\"", "unique among the probes");
   impl_->log.probes.push_back({name, field, place});
+}
+
+namespace {
+
+// One column of the history for each of the quantities of a record, such as "x" of "reaction.".
+void add_columns(RunLog& log, const Probe& record, const std::vector<std::string>& quantities) {
+  std::vector<Probe> columns(quantities.size(), record);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    columns[i].name += "_" + quantities[i];
+    columns[i].crack += quantities[i];
+    for (const Probe& probe : log.probes)
+      if (probe.name == columns[i].name)
+        throw geom::InputError("name", "\"" + record.name + "\"", "one that gives new columns",
+                               "the history has \"" + probe.name + "\"");
+  }
+  log.probes.insert(log.probes.end(), columns.begin(), columns.end());
+}
+
+} // namespace
+
+void Simulation::record_reaction(const std::string& name, const std::string& on) {
+  if (selected_nodes(impl_->model, place_of_support(impl_->model, on)).empty())
+    throw geom::InputError("on", on, "a side of the model's box (\"x-\" .. \"z+\") or the name of a body");
+  add_columns(impl_->log, {name, "", geom::Vec3::Zero(), "reaction.", -1, on}, {"x", "y", "z"});
+}
+
+void Simulation::record_momentum(const std::string& name, const std::string& body) {
+  add_columns(impl_->log, {name, "", geom::Vec3::Zero(), "momentum.", body_number(body), body},
+              {"x", "y", "z"});
+}
+
+void Simulation::record_cracks(const std::string& name, const std::string& body) {
+  add_columns(impl_->log, {name, "", geom::Vec3::Zero(), "", body.empty() ? -1 : body_number(body)},
+              crack_quantities());
+}
+
+CracksByBody Simulation::cracks() const {
+  return cdem::cracks(impl_->model, impl_->whole());
+}
+
+Snapshot Simulation::crack_surface(bool damaged, const std::string& title) const {
+  return cdem::crack_surface(impl_->model, impl_->whole(), impl_->log.breaks, damaged, title);
+}
+
+std::vector<JointSum> Simulation::joints(const JointChoice& choice) const {
+  return joint_sums(impl_->model, impl_->whole(), choice);
+}
+
+std::vector<std::pair<std::string, JointPoint>> Simulation::joint_points(const JointChoice& choice) const {
+  return cdem::joint_points(impl_->model, impl_->whole(), choice);
+}
+
+Snapshot Simulation::joint_surface(const JointChoice& choice, const std::string& title) const {
+  return cdem::joint_surface(impl_->model, impl_->whole(), choice, title);
+}
+
+Snapshot Simulation::joint_picture(const JointChoice& choice, const std::string& title) const {
+  Snapshot snapshot = joint_surface(choice, title);
+  add_outline(impl_->model, impl_->whole(), snapshot);
+  return snapshot;
+}
+
+JIntegral Simulation::j_integral(const std::string& body, JFront front,
+                                 const std::vector<JDomain>& domains) const {
+  Impl& s = *impl_;
+  if (body.empty() && s.model.bodies.size() > 1)
+    throw geom::InputError("body: left out: the model has several bodies; name the one with the crack");
+  front.body = body.empty() ? 0 : body_number(body);
+  ResolvedConditions conditions = resolve(s.model, s.whole(), s.conditions);
+  update_external(conditions, s.whole().time, &s.whole().velocity);
+  return cdem::j_integral(s.model, s.whole(), conditions, front, domains);
+}
+
+const Elastic& Simulation::material(const std::string& body) const {
+  return impl_->model.bodies[body_number(body)].material;
+}
+
+std::vector<FragmentMotion> Simulation::fragment_motions() const {
+  return cdem::fragment_motions(impl_->model, impl_->whole(),
+                                resolve(impl_->model, impl_->whole(), impl_->conditions));
 }
 
 Snapshot Simulation::picture_snapshot(const PictureWish& wish, const std::string& title) const {
