@@ -31,7 +31,6 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-// Another without stages, warnings and log.
 Simulation Simulation::copy() const {
   auto other = std::make_unique<Impl>();
   SimulatedModel& s = *other;

@@ -88,10 +88,7 @@ BeyondStrength Simulation::initial_stress(const InitialStress& field) {
 }
 
 void Simulation::initial_stress(const Selection& on, const std::array<double, 6>& stress) {
-  InitialStress field;
-  field.on = on;
-  field.stress = stress;
-  initial_stress(field);
+  initial_stress(InitialStress{on, stress});
 }
 
 WaterInJoints Simulation::water(const Water& water) {

@@ -7,7 +7,6 @@
 #include "libcdem/model/unit_order.hpp"
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/ranks/looks.hpp"
-#include "libcdem/results/crack_surface.hpp"
 #include "libcdem/results/drawn_surface.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/results/fragments.hpp"
@@ -23,6 +22,19 @@
 
 namespace cdem {
 
+const Model& Simulation::model() const {
+  return impl_->model;
+}
+const State& Simulation::state() const {
+  return impl_->whole();
+}
+const Conditions& Simulation::conditions() const {
+  return impl_->conditions;
+}
+const RunLog& Simulation::log() const {
+  return impl_->log;
+}
+
 std::vector<Fragment> Simulation::fragments() const {
   return cdem::fragments(impl_->model, impl_->whole(),
                          resolve(impl_->model, impl_->whole(), impl_->conditions));
@@ -33,25 +45,9 @@ ContactSummary Simulation::contacts() const {
           impl_->log.deepest_over_height};
 }
 
-bool Simulation::can_touch() const {
-  return !impl_->model.surface.triangles.empty();
-}
-
-std::vector<ContactPoint> Simulation::contact_points() const {
-  return cdem::contact_points(impl_->model, impl_->whole());
-}
-
-std::vector<ProcessZone> Simulation::process_zones() const {
-  return cdem::process_zones(impl_->model);
-}
-
 std::vector<Slivers> Simulation::slivers() const {
   static KnownOfModel<std::vector<Slivers>> known;
   return *known.of(impl_->model, [&] { return find_slivers(impl_->model); });
-}
-
-Overlap Simulation::overlap() const {
-  return cdem::overlap(impl_->model, impl_->whole());
 }
 
 std::vector<std::array<std::string, 2>> Simulation::unmet() const {
@@ -59,10 +55,6 @@ std::vector<std::array<std::string, 2>> Simulation::unmet() const {
   for (const auto& [a, b] : impl_->log.unmet)
     names.push_back({impl_->model.bodies[a].name, impl_->model.bodies[b].name});
   return names;
-}
-
-const std::vector<EscapeRow>& Simulation::escapes() const {
-  return impl_->log.escapes;
 }
 
 ModelCounts Simulation::counts() const {
@@ -113,23 +105,12 @@ int Simulation::stage() const {
 std::int64_t Simulation::steps() const {
   return impl_->kept.step;
 }
-ImpossibleEnergy Simulation::impossible_energy(const EnergyLedger& now) const {
-  return cdem::impossible_energy(now, impl_->kept.time, impl_->log.one_way);
-}
-
 EnergyLedger Simulation::energy() const {
   return cdem::energy(impl_->model, impl_->whole());
 }
 std::uint64_t Simulation::state_hash() const {
   return hash(impl_->whole());
 }
-geom::Box Simulation::box() const {
-  return impl_->model.box;
-}
-std::vector<std::string> Simulation::field_names() {
-  return cdem::field_names();
-}
-
 FieldValue Simulation::max(const std::string& field, const Selection& on) const {
   check_field(field); // before the others are asked for their shares
   const auto list = values(impl_->model, impl_->whole(), field, on);
@@ -179,32 +160,12 @@ std::vector<Simulation::BlockRow> Simulation::blocks() const {
   return rows;
 }
 
-std::vector<Unit> Simulation::units(const std::string& body) const {
-  return units_of(impl_->model, impl_->whole(), body);
-}
-std::vector<geom::Surface> Simulation::surfaces(const std::string& body) const {
-  return surfaces_of(impl_->model, impl_->whole(), body);
-}
-std::vector<int> Simulation::touching(const std::string& body) const {
-  return cdem::touching(impl_->model, impl_->whole(), body);
-}
-
 int Simulation::body_number(const std::string& body, const std::string& field) const {
   const std::vector<Body>& bodies = impl_->model.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].name == body)
       return static_cast<int>(i);
   refuse_body(field, body, impl_->model);
-}
-
-const std::vector<BreakRow>& Simulation::breaks() const {
-  return impl_->log.breaks;
-}
-std::array<std::int64_t, 2> Simulation::told_broken() const {
-  return {impl_->log.told_tension, impl_->log.told_shear};
-}
-const std::vector<HistoryRow>& Simulation::history() const {
-  return impl_->log.history;
 }
 
 std::size_t Simulation::watch(const std::string& body, double leaves) {
@@ -215,23 +176,8 @@ std::size_t Simulation::watch(const std::string& body, double leaves) {
   return s.watches++;
 }
 
-const std::vector<Departure>& Simulation::departures(std::size_t watch) const {
-  return impl_->log.watches.at(watch).left;
-}
-
 std::vector<std::string> Simulation::dry_flows() const {
   return impl_->warnings.dry_flows();
-}
-
-Deformation Simulation::deformation() const {
-  return largest_deformation(impl_->model, impl_->whole());
-}
-
-std::vector<std::string> Simulation::probe_names() const {
-  std::vector<std::string> names;
-  for (const Probe& probe : impl_->log.probes)
-    names.push_back(probe.name);
-  return names;
 }
 
 void Simulation::probe(const std::string& name, const std::string& field, const geom::Vec3& place) {
@@ -280,24 +226,12 @@ CracksByBody Simulation::cracks() const {
   return cdem::cracks(impl_->model, impl_->whole());
 }
 
-Snapshot Simulation::crack_surface(bool damaged, const std::string& title) const {
-  return cdem::crack_surface(impl_->model, impl_->whole(), impl_->log.breaks, damaged, title);
-}
-
 std::vector<JointSum> Simulation::joints(const JointChoice& choice) const {
   return joint_sums(impl_->model, impl_->whole(), choice);
 }
 
-std::vector<std::pair<std::string, JointPoint>> Simulation::joint_points(const JointChoice& choice) const {
-  return cdem::joint_points(impl_->model, impl_->whole(), choice);
-}
-
-Snapshot Simulation::joint_surface(const JointChoice& choice, const std::string& title) const {
-  return cdem::joint_surface(impl_->model, impl_->whole(), choice, title);
-}
-
 Snapshot Simulation::joint_picture(const JointChoice& choice, const std::string& title) const {
-  Snapshot snapshot = joint_surface(choice, title);
+  Snapshot snapshot = joint_surface(impl_->model, impl_->whole(), choice, title);
   add_outline(impl_->model, impl_->whole(), snapshot);
   return snapshot;
 }

@@ -110,7 +110,7 @@ TEST_CASE("checkpoint: a run and a relaxation that were left go on to the same b
   SECTION("blocks") {
     cdem::Simulation probe = plate(1);
     relax_then_run(probe, 0);
-    REQUIRE(probe.breaks().size() > 10);
+    REQUIRE(probe.log().breaks.size() > 10);
     check_going_on(plate, relax_then_run);
   }
   SECTION("a mesh in a flow") {
@@ -123,7 +123,7 @@ TEST_CASE("checkpoint: a run and a relaxation that were left go on to the same b
     };
     cdem::Simulation probe = column(1);
     solve(probe, 0);
-    REQUIRE(probe.breaks().size() > 10);
+    REQUIRE(probe.log().breaks.size() > 10);
     check_going_on(column, solve);
   }
 }
@@ -233,7 +233,7 @@ TEST_CASE("checkpoint: a saved state is loaded without the log, and once for man
     cdem::Simulation next = plate(1);
     next.restore_state(saved);
     CHECK(next.stage() == 0);
-    CHECK(next.history().empty());
+    CHECK(next.log().history.empty());
     run(next);
     CHECK(next.state_hash() == first.state_hash());
   }
