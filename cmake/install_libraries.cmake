@@ -8,7 +8,9 @@ set(public_headers
     libgeom/mesh/read_mesh.hpp libgeom/meshing/solid_mesh.hpp libgeom/assembly/tet_blocks.hpp
     libgeom/placement/armour_layer.hpp libgeom/placement/drop_grid.hpp libgeom/placement/pile_measures.hpp
     libgeom/solid/armour_units.hpp libgeom/solid/read_stl.hpp libgeom/solid/solid.hpp
-    libcdem/simulation.hpp
+    libcdem/simulation.hpp libcdem/results/contact_points.hpp libcdem/results/crack_surface.hpp
+    libcdem/results/crack_tip.hpp libcdem/results/deformation.hpp libcdem/results/overlap.hpp
+    libcdem/results/process_zone.hpp libcdem/results/units.hpp
     libcdem/vtk/chart.hpp libcdem/vtk/files.hpp libcdem/vtk/film.hpp libcdem/vtk/picture.hpp)
 
 # `headers` with the headers of ours that they include, and so on.

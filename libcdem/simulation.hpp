@@ -15,29 +15,23 @@
 #include "libcdem/procedure/grow_options.hpp"
 #include "libcdem/procedure/reduce_strength.hpp"
 #include "libcdem/procedure/settle_options.hpp"
-#include "libcdem/results/contact_points.hpp"
-#include "libcdem/results/crack_tip.hpp"
 #include "libcdem/results/cracks.hpp"
-#include "libcdem/results/deformation.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/fragment_motions.hpp"
 #include "libcdem/results/j_integral.hpp"
 #include "libcdem/results/joints.hpp"
 #include "libcdem/results/log.hpp"
-#include "libcdem/results/overlap.hpp"
 #include "libcdem/results/picture_snapshot.hpp"
-#include "libcdem/results/process_zone.hpp"
 #include "libcdem/results/slivers.hpp"
 #include "libcdem/results/snapshot.hpp"
 #include "libcdem/results/unbalance.hpp"
-#include "libcdem/results/unit.hpp"
-#include "libcdem/state/ledger.hpp"
+#include "libcdem/state/state.hpp"
 #include "libcdem/step/checkpoint_writer.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/options.hpp"
 #include "libgeom/assembly/assembly.hpp"
-#include "libgeom/mesh/surface.hpp"
+#include "libgeom/mesh/tet_mesh.hpp"
 
 #include <array>
 #include <map>
@@ -48,10 +42,10 @@
 
 namespace cdem {
 
-// Convex blocks (shape), or meshes. Each connected part of a mesh becomes one block of tetrahedra.
 // The law of an interface whose centroid lies there (undeformed, m).
 using JointAt = std::function<Joint(const geom::Vec3&)>;
 
+// Convex blocks (shape), or meshes. Each connected part of a mesh becomes one block of tetrahedra.
 struct BodySpec {
   std::string name; // unique; "body_1", ... when the user gives none
   geom::Assembly shape;
@@ -153,7 +147,6 @@ public:
   // Watches the units (blocks) of a meshed body from now on, in every stage (results/watch.hpp). Returns the watch's
   // number, from 0; a resumed script that makes it again gets the one that was saved.
   std::size_t watch(const std::string& body, double leaves);
-  const std::vector<Departure>& departures(std::size_t watch) const;
 
   // What a check, which solves nothing, asks before a stage: what a stage warns of as it begins; and the functions of time
   // and the fields of water at times of a run, s. Throw geom::InputError as the stage would.
@@ -168,45 +161,39 @@ public:
   SettleResult settle(const SettleOptions&);                    // one stage; see procedure/settle.hpp
   CriticalFlowResult critical_flow(const CriticalFlowOptions&); // one stage; see procedure/critical_flow.hpp
 
+  // What it is made of, for the functions of results/. The state is that of all ranks, who call this together.
+  const Model& model() const;
+  const State& state() const;
+  const Conditions& conditions() const;
+  const RunLog& log() const;
+
   // Results.
   ModelCounts counts() const;
   ContactSummary contacts() const;
-  bool can_touch() const;                           // there are bodies that move far
-  std::vector<ContactPoint> contact_points() const; // of theirs, those that carry now
-  double time() const;                              // s
-  double residual() const;                          // out-of-balance force norm over applied force norm
+  double time() const;     // s
+  double residual() const; // out-of-balance force norm over applied force norm
   Unbalance unbalance(std::optional<double> reference = {}) const; // results/unbalance.hpp
   double stable_time_step() const;                                 // s
   double rigid_time_step(const std::string& body) const; // s, that its units would take as rigid bodies
   int stage() const;                                     // solving calls so far
   std::int64_t steps() const;                            // steps of all stages
   EnergyLedger energy() const;
-  ImpossibleEnergy impossible_energy(const EnergyLedger& now) const; // now: energy()
-  std::uint64_t state_hash() const;                                  // of every State field, bit for bit
-  geom::Box box() const;                                             // undeformed
-  Deformation deformation() const;                                   // how far from small strain
-  std::vector<Slivers> slivers() const;                              // results/slivers.hpp
-  std::vector<ProcessZone> process_zones() const;                    // results/process_zone.hpp
-  Overlap overlap() const;                                           // results/overlap.hpp
+  std::uint64_t state_hash() const;     // of every State field, bit for bit
+  std::vector<Slivers> slivers() const; // results/slivers.hpp
   // Pairs of bodies, by name, for which a law was given and that had neither interface nor contact so far; twice the same
   // body: its own blocks.
   std::vector<std::array<std::string, 2>> unmet() const;
-  const std::vector<EscapeRow>& escapes() const; // what has left the model, in order
   // There is something that could move the model: a load, a support that moves it, an initial stress or velocity, or
   // a state that is deformed already.
   bool anything_acts() const;
   // Flows of water that has reached no face in any run so far, in words.
   std::vector<std::string> dry_flows() const;
-  bool has_gravity() const;
-  geom::Vec3 gravity_vector() const;                    // m/s2; zero without
-  bool has_buoyancy() const;                            // gravity with a water_density
   std::vector<Fragment> fragments() const;              // largest first
   std::vector<FragmentMotion> fragment_motions() const; // the same, with their motion
 
   // Fields by name with a component: "displacement.x|y|z|magnitude", "velocity.*" at nodes; "stress.xx".., "von_mises",
   // "principal_stress.1..3" (tension positive, 1 the largest) as block averages. Unknown name: geom::InputError that
   // names the nearest right one. A selection that is met by nothing: geom::InputError.
-  static std::vector<std::string> field_names();
   FieldValue max(const std::string& field, const Selection& = {}) const;
   FieldValue min(const std::string& field, const Selection& = {}) const;
   // Mean of a field of nodes over the outer faces on a side or plane that has some, else over the volume; mean of a
@@ -229,24 +216,11 @@ public:
   // From 0, the value of field "body". geom::InputError of `field`: there is none.
   int body_number(const std::string& body, const std::string& field = "body") const;
 
-  // The units of a body, in order. Each throws geom::InputError for a body that there is not.
-  std::vector<Unit> units(const std::string& body) const;
-  std::vector<geom::Surface> surfaces(const std::string& body) const; // where they are now
-  std::vector<int> touching(const std::string& body) const; // how many other meshed blocks press on each
-
-  // Broken bonds, oldest first.
-  const std::vector<BreakRow>& breaks() const;
-  // Spring points that the observer was told of as broken when stages ended: in tension, in shear.
-  std::array<std::int64_t, 2> told_broken() const;
-
-  // Joints between blocks: sums by set, points, surface (results/joints.hpp).
+  // Joints between blocks (results/joints.hpp): sums by set; their surface with the outline of the bodies.
   std::vector<JointSum> joints(const JointChoice&) const;
-  std::vector<std::pair<std::string, JointPoint>> joint_points(const JointChoice&) const;
-  Snapshot joint_surface(const JointChoice&, const std::string& title) const;
-  Snapshot joint_picture(const JointChoice&,
-                         const std::string& title) const; // with the outline of the bodies
+  Snapshot joint_picture(const JointChoice&, const std::string& title) const;
 
-  // Cracks: area and energy, tip and speed along a path, the surface, the energy release rate.
+  // Cracks: area and energy; the energy release rate.
   CracksByBody cracks() const;
   // Samples the force of the supports on a side or body, and the momentum of a body, into the history as columns name_x,
   // name_y, name_z.
@@ -265,14 +239,10 @@ public:
   std::vector<BoltRow> bolts() const;
   // Samples crack_quantities() of a body, or of all where it is empty, into the history as columns name_area ...
   void record_cracks(const std::string& name, const std::string& body);
-  Snapshot crack_surface(bool damaged, const std::string& title) const;
   // JFront::body is taken from `body`; empty: the only one there is.
   JIntegral j_integral(const std::string& body, JFront, const std::vector<JDomain>&) const;
   const Elastic& material(const std::string& body) const;
 
-  // One sample every 10 steps and at the end of each stage; thinned by halves beyond 20000 rows.
-  const std::vector<HistoryRow>& history() const;
-  std::vector<std::string> probe_names() const;
   // A value sampled into the history: field at a place.
   void probe(const std::string& name, const std::string& field, const geom::Vec3& place);
 

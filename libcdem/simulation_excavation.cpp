@@ -117,7 +117,7 @@ std::int64_t Simulation::remove(const Selection& on, const Excavation& excavatio
   for (Watch& watch : s.log.watches)
     carry_over(watch, new_block);
   s.adopt(std::move(rebuilt));
-  s.warn_of_lost_probes();
+  s.warnings.of_lost_probes();
   return removed;
 }
 

@@ -1,6 +1,4 @@
 // What a Simulation tells of itself.
-#include "libcdem/simulation_impl.hpp"
-
 #include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
@@ -9,16 +7,33 @@
 #include "libcdem/model/unit_order.hpp"
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/ranks/looks.hpp"
+#include "libcdem/results/drawn_surface.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/results/fragments.hpp"
 #include "libcdem/results/free_surface.hpp"
 #include "libcdem/results/make_snapshot.hpp"
 #include "libcdem/results/units.hpp"
+#include "libcdem/simulation_impl.hpp"
 #include "libcdem/step/forces.hpp"
+#include "libcdem/step/support_forces.hpp"
 
 #include <algorithm>
 #include <limits>
 
 namespace cdem {
+
+const Model& Simulation::model() const {
+  return impl_->model;
+}
+const State& Simulation::state() const {
+  return impl_->whole();
+}
+const Conditions& Simulation::conditions() const {
+  return impl_->conditions;
+}
+const RunLog& Simulation::log() const {
+  return impl_->log;
+}
 
 std::vector<Fragment> Simulation::fragments() const {
   return cdem::fragments(impl_->model, impl_->whole(),
@@ -30,25 +45,9 @@ ContactSummary Simulation::contacts() const {
           impl_->log.deepest_over_height};
 }
 
-bool Simulation::can_touch() const {
-  return !impl_->model.surface.triangles.empty();
-}
-
-std::vector<ContactPoint> Simulation::contact_points() const {
-  return cdem::contact_points(impl_->model, impl_->whole());
-}
-
-std::vector<ProcessZone> Simulation::process_zones() const {
-  return cdem::process_zones(impl_->model);
-}
-
 std::vector<Slivers> Simulation::slivers() const {
   static KnownOfModel<std::vector<Slivers>> known;
   return *known.of(impl_->model, [&] { return find_slivers(impl_->model); });
-}
-
-Overlap Simulation::overlap() const {
-  return cdem::overlap(impl_->model, impl_->whole());
 }
 
 std::vector<std::array<std::string, 2>> Simulation::unmet() const {
@@ -56,10 +55,6 @@ std::vector<std::array<std::string, 2>> Simulation::unmet() const {
   for (const auto& [a, b] : impl_->log.unmet)
     names.push_back({impl_->model.bodies[a].name, impl_->model.bodies[b].name});
   return names;
-}
-
-const std::vector<EscapeRow>& Simulation::escapes() const {
-  return impl_->log.escapes;
 }
 
 ModelCounts Simulation::counts() const {
@@ -110,23 +105,12 @@ int Simulation::stage() const {
 std::int64_t Simulation::steps() const {
   return impl_->kept.step;
 }
-ImpossibleEnergy Simulation::impossible_energy(const EnergyLedger& now) const {
-  return cdem::impossible_energy(now, impl_->kept.time, impl_->log.one_way);
-}
-
 EnergyLedger Simulation::energy() const {
   return cdem::energy(impl_->model, impl_->whole());
 }
 std::uint64_t Simulation::state_hash() const {
   return hash(impl_->whole());
 }
-geom::Box Simulation::box() const {
-  return impl_->model.box;
-}
-std::vector<std::string> Simulation::field_names() {
-  return cdem::field_names();
-}
-
 FieldValue Simulation::max(const std::string& field, const Selection& on) const {
   check_field(field); // before the others are asked for their shares
   const auto list = values(impl_->model, impl_->whole(), field, on);
@@ -176,16 +160,6 @@ std::vector<Simulation::BlockRow> Simulation::blocks() const {
   return rows;
 }
 
-std::vector<Unit> Simulation::units(const std::string& body) const {
-  return units_of(impl_->model, impl_->whole(), body);
-}
-std::vector<geom::Surface> Simulation::surfaces(const std::string& body) const {
-  return surfaces_of(impl_->model, impl_->whole(), body);
-}
-std::vector<int> Simulation::touching(const std::string& body) const {
-  return cdem::touching(impl_->model, impl_->whole(), body);
-}
-
 int Simulation::body_number(const std::string& body, const std::string& field) const {
   const std::vector<Body>& bodies = impl_->model.bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -194,21 +168,16 @@ int Simulation::body_number(const std::string& body, const std::string& field) c
   refuse_body(field, body, impl_->model);
 }
 
-const std::vector<BreakRow>& Simulation::breaks() const {
-  return impl_->log.breaks;
-}
-std::array<std::int64_t, 2> Simulation::told_broken() const {
-  return {impl_->log.told_tension, impl_->log.told_shear};
-}
-const std::vector<HistoryRow>& Simulation::history() const {
-  return impl_->log.history;
+std::size_t Simulation::watch(const std::string& body, double leaves) {
+  Impl& s = *impl_;
+  Watch watch = start_watch(s.model, s.whole(), body, leaves);
+  if (s.watches == s.log.watches.size()) // else it has been restored
+    s.log.watches.push_back(std::move(watch));
+  return s.watches++;
 }
 
-std::vector<std::string> Simulation::probe_names() const {
-  std::vector<std::string> names;
-  for (const Probe& probe : impl_->log.probes)
-    names.push_back(probe.name);
-  return names;
+std::vector<std::string> Simulation::dry_flows() const {
+  return impl_->warnings.dry_flows();
 }
 
 void Simulation::probe(const std::string& name, const std::string& field, const geom::Vec3& place) {
@@ -217,6 +186,74 @@ void Simulation::probe(const std::string& name, const std::string& field, const 
     if (probe.name == name)
       throw geom::InputError("name", "\"" + name + "\"", "unique among the probes");
   impl_->log.probes.push_back({name, field, place});
+}
+
+namespace {
+
+// One column of the history for each of the quantities of a record, such as "x" of "reaction.".
+void add_columns(RunLog& log, const Probe& record, const std::vector<std::string>& quantities) {
+  std::vector<Probe> columns(quantities.size(), record);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    columns[i].name += "_" + quantities[i];
+    columns[i].crack += quantities[i];
+    for (const Probe& probe : log.probes)
+      if (probe.name == columns[i].name)
+        throw geom::InputError("name", "\"" + record.name + "\"", "one that gives new columns",
+                               "the history has \"" + probe.name + "\"");
+  }
+  log.probes.insert(log.probes.end(), columns.begin(), columns.end());
+}
+
+} // namespace
+
+void Simulation::record_reaction(const std::string& name, const std::string& on) {
+  if (selected_nodes(impl_->model, place_of_support(impl_->model, on)).empty())
+    throw geom::InputError("on", on, "a side of the model's box (\"x-\" .. \"z+\") or the name of a body");
+  add_columns(impl_->log, {name, "", geom::Vec3::Zero(), "reaction.", -1, on}, {"x", "y", "z"});
+}
+
+void Simulation::record_momentum(const std::string& name, const std::string& body) {
+  add_columns(impl_->log, {name, "", geom::Vec3::Zero(), "momentum.", body_number(body), body},
+              {"x", "y", "z"});
+}
+
+void Simulation::record_cracks(const std::string& name, const std::string& body) {
+  add_columns(impl_->log, {name, "", geom::Vec3::Zero(), "", body.empty() ? -1 : body_number(body)},
+              crack_quantities());
+}
+
+CracksByBody Simulation::cracks() const {
+  return cdem::cracks(impl_->model, impl_->whole());
+}
+
+std::vector<JointSum> Simulation::joints(const JointChoice& choice) const {
+  return joint_sums(impl_->model, impl_->whole(), choice);
+}
+
+Snapshot Simulation::joint_picture(const JointChoice& choice, const std::string& title) const {
+  Snapshot snapshot = joint_surface(impl_->model, impl_->whole(), choice, title);
+  add_outline(impl_->model, impl_->whole(), snapshot);
+  return snapshot;
+}
+
+JIntegral Simulation::j_integral(const std::string& body, JFront front,
+                                 const std::vector<JDomain>& domains) const {
+  Impl& s = *impl_;
+  if (body.empty() && s.model.bodies.size() > 1)
+    throw geom::InputError("body: left out: the model has several bodies; name the one with the crack");
+  front.body = body.empty() ? 0 : body_number(body);
+  ResolvedConditions conditions = resolve(s.model, s.whole(), s.conditions);
+  update_external(conditions, s.whole().time, &s.whole().velocity);
+  return cdem::j_integral(s.model, s.whole(), conditions, front, domains);
+}
+
+const Elastic& Simulation::material(const std::string& body) const {
+  return impl_->model.bodies[body_number(body)].material;
+}
+
+std::vector<FragmentMotion> Simulation::fragment_motions() const {
+  return cdem::fragment_motions(impl_->model, impl_->whole(),
+                                resolve(impl_->model, impl_->whole(), impl_->conditions));
 }
 
 Snapshot Simulation::picture_snapshot(const PictureWish& wish, const std::string& title) const {

@@ -173,7 +173,8 @@ void Search::start() {
 void Search::begin(SearchPart part) {
   now_.part = part;
   without_flow_.from = nullptr;
-  keep_start_of_loop(without_flow_);
+  without_flow_.last_good = state_;
+  mark_start_of_loop(without_flow_);
 }
 
 // The unbroken solid at rest under the small pressure.

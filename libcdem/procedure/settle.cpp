@@ -143,7 +143,8 @@ void Settling::begin(SettlePart part) {
   now_.looks = 0;
   now_.calm.quiet = 0;
   context_.from = nullptr;
-  keep_start_of_loop(context_);
+  context_.last_good = state_;
+  mark_start_of_loop(context_);
 }
 
 void Settling::phase(const std::string& name, double time_step, Until until) {

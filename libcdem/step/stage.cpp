@@ -85,7 +85,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   if (context_.from)
     go_on_from(*context_.from);
   else
-    keep_start_of_loop(context_);
+    mark_start_of_loop(context_);
   keep_last_good();
   shares_.give_back();
 }

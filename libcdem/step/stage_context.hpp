@@ -36,11 +36,8 @@ struct StageContext {
   Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
 };
 
-// For a model that may change in the stage; such a stage cannot be left.
-StageContext stage_context(Model&, State&, const Conditions&, RunLog&, State& last_good, Observer&,
-                           int threads, int number);
-
-// The stage can be left here, where none of its loops has begun a step: the state is kept, the RestartPoint written anew.
-void keep_start_of_loop(const StageContext&);
+// The stage can be left here, where none of its loops has begun a step: the RestartPoint is written again. The caller
+// keeps the state.
+void mark_start_of_loop(const StageContext&);
 
 } // namespace cdem

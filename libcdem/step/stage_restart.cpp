@@ -6,6 +6,21 @@
 
 namespace cdem {
 
+void mark_start_of_loop(const StageContext& context) {
+  if (!context.restart_point)
+    return;
+  RestartPoint point;
+  point.breaks = context.log.breaks.size();
+  point.one_way = context.log.one_way;
+  point.broken_tension_before = context.log.broken_tension;
+  point.broken_shear_before = context.log.broken_shear;
+  if (context.procedure_state)
+    point.procedure_state = context.procedure_state();
+  *context.restart_point = std::move(point);
+  if (context.checkpoints)
+    context.checkpoints->marked();
+}
+
 void Stage::keep_restart_point(std::vector<double> loop_state) {
   if (can_be_left() && shares_.count_loads()) {
     see_whole();

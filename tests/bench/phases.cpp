@@ -45,8 +45,9 @@ void Phases::run(const char* name, std::int64_t most_steps, const std::function<
   const Stopwatch watch(1);
   options.stop = ends;
   LastProgress observer;
-  const RunResult r =
-      cdem::run(stage_context(model, state, conditions, log, last_good_, observer, 1, ++stage_), options);
+  StageContext context{model, state, conditions, log, last_good_, observer, 1, ++stage_};
+  context.changing = &model;
+  const RunResult r = cdem::run(context, options);
   const double rate = static_cast<double>(r.steps) / watch.seconds();
   whole_ = whole_ > 0 ? whole_ : rate;
   const EnergyLedger now = energy(model, state);

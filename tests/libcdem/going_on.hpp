@@ -27,14 +27,16 @@ inline void check_same(const cdem::Simulation& a, const cdem::Simulation& b) {
   CHECK(a.steps() == b.steps());
   CHECK(a.residual() == b.residual());
   CHECK(a.energy().total() == b.energy().total());
-  REQUIRE(a.breaks().size() == b.breaks().size());
-  for (std::size_t i = 0; i < a.breaks().size(); ++i)
-    CHECK((a.breaks()[i].step == b.breaks()[i].step && a.breaks()[i].place == b.breaks()[i].place &&
-           a.breaks()[i].stage == b.breaks()[i].stage));
-  REQUIRE(a.history().size() == b.history().size());
-  for (std::size_t i = 0; i < a.history().size(); ++i)
-    CHECK((a.history()[i].step == b.history()[i].step && a.history()[i].kinetic == b.history()[i].kinetic &&
-           a.history()[i].broken_tension == b.history()[i].broken_tension));
+  REQUIRE(a.log().breaks.size() == b.log().breaks.size());
+  for (std::size_t i = 0; i < a.log().breaks.size(); ++i)
+    CHECK((a.log().breaks[i].step == b.log().breaks[i].step &&
+           a.log().breaks[i].place == b.log().breaks[i].place &&
+           a.log().breaks[i].stage == b.log().breaks[i].stage));
+  REQUIRE(a.log().history.size() == b.log().history.size());
+  for (std::size_t i = 0; i < a.log().history.size(); ++i)
+    CHECK((a.log().history[i].step == b.log().history[i].step &&
+           a.log().history[i].kinetic == b.log().history[i].kinetic &&
+           a.log().history[i].broken_tension == b.log().history[i].broken_tension));
 }
 
 // Results of stages.

@@ -139,7 +139,9 @@ void note(const char* kind, const cdem::State& state) {
 } // namespace
 
 cdem::StageContext System::next_stage() {
-  return cdem::stage_context(model, state, conditions, log, last_good, observer, threads, ++stage);
+  cdem::StageContext context{model, state, conditions, log, last_good, observer, threads, ++stage};
+  context.changing = &model;
+  return context;
 }
 
 cdem::RelaxResult System::relax(double residual, bool breaking) {

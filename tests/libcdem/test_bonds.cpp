@@ -67,7 +67,7 @@ TEST_CASE("a bond in tension carries up to T A and breaks above it", "[bonds]") 
   CHECK(box.counts().intact == box.counts().bonds);
   CHECK(box.go({0, 0, 1.001 * strength}).norm() == 0);
   CHECK(box.counts().broken_tension == box.counts().bonds);
-  for (const cdem::BreakRow& row : box.simulation().breaks())
+  for (const cdem::BreakRow& row : box.simulation().log().breaks)
     CHECK(row.normal_traction == Approx(strength).epsilon(1e-3));
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("a bond in shear carries up to (c - t_n tan phi) A and afterwards fric
   CHECK(box.counts().broken_shear == box.counts().bonds);
   const Vec3 friction = std::max(0.0, -tn) * tangent * along;
   CHECK((after + friction + Vec3(0, 0, std::min(tn, 0.0))).norm() < 1e-9 * strength);
-  for (const cdem::BreakRow& row : box.simulation().breaks())
+  for (const cdem::BreakRow& row : box.simulation().log().breaks)
     CHECK(row.shear_traction == Approx(strength).epsilon(1e-3));
 }
 

@@ -174,6 +174,16 @@ TEST_CASE(
   CHECK(taken > 2 * given);
 }
 
+TEST_CASE("contact law: a relaxation finds a contact at rest as deep as it is", "[contact][law]") {
+  Contact c = pressed(1e-4);
+  c.at_rest = 3e-5;
+  ContactMotion m = motion(2e-4);
+  m.in_relaxation = true;
+  advance(c, {1e8, 5e7, 0.5, 0.2}, m);
+  CHECK(c.at_rest == c.effective_penetration());
+  CHECK(c.damping == 0);
+}
+
 TEST_CASE("contact law: the reference follows a jump of the depth, and no motion", "[contact][law]") {
   Contact old = pressed(3e-4);
   old.reference_penetration = 1e-4;

@@ -45,7 +45,7 @@ void lead(cdem::Simulation& s, const Vec3& end, int steps) {
 
 double logged_area(const cdem::Simulation& s) {
   double sum = 0;
-  for (const cdem::BreakRow& row : s.breaks())
+  for (const cdem::BreakRow& row : s.log().breaks)
     sum += row.area;
   return sum;
 }
@@ -172,17 +172,17 @@ TEST_CASE("cracks: histories sample what the state says, and only grow", "[crack
   CHECK_THROWS_WITH(s.record_cracks("crack", ""), Catch::Contains("crack_area"));
   CHECK_THROWS_WITH(s.record_cracks("other", "nobody"), Catch::Contains("nobody"));
   lead(s, {0, 0, 6e-4}, 12);
-  const auto names = s.probe_names();
+  const auto& probes = s.log().probes;
   const std::size_t n = cdem::crack_quantities().size();
-  REQUIRE(names.size() == 2 * n);
-  CHECK(names[0] == "crack_area");
-  const auto& last = s.history().back().probes;
+  REQUIRE(probes.size() == 2 * n);
+  CHECK(probes[0].name == "crack_area");
+  const auto& last = s.log().history.back().probes;
   for (std::size_t i = 0; i < n; ++i) {
     CHECK(last[i] == cdem::crack_quantity(s.cracks().all(), cdem::crack_quantities()[i]));
     CHECK(last[n + i] == 0);
   }
   double area = 0, energy = 0;
-  for (const cdem::HistoryRow& row : s.history()) {
+  for (const cdem::HistoryRow& row : s.log().history) {
     CHECK(row.probes[0] >= area);
     CHECK(row.probes[5] >= energy);
     area = row.probes[0];
@@ -197,19 +197,19 @@ TEST_CASE("cracks: a saved model has its cracks and histories again", "[cracks][
   lead(s, {0, 0, 4e-5}, 8);
   cdem::Simulation again = two_slabs(joint);
   again.restore(s.save());
-  CHECK(again.probe_names() == s.probe_names());
+  CHECK(again.log().probes.size() == s.log().probes.size());
   for (const std::string& quantity : cdem::crack_quantities())
     CHECK(cdem::crack_quantity(again.cracks().all(), quantity) ==
           cdem::crack_quantity(s.cracks().all(), quantity));
   CHECK(again.cracks().all().energy.tension > 0);
-  CHECK(again.history().back().probes == s.history().back().probes);
+  CHECK(again.log().history.back().probes == s.log().history.back().probes);
 }
 
 TEST_CASE("cracks: a notch made by hand is none", "[cracks]") {
   cdem::Simulation s = two_slabs(softening_joint(cdem::Softening::linear));
   CHECK(s.break_bonds(cdem::Selection::everything()) > 0);
   CHECK(s.cracks().all().area() == 0);
-  CHECK(s.crack_surface(true, "").bonds.triangles.empty());
+  CHECK(cdem::crack_surface(s.model(), s.state(), s.log().breaks, true, "").bonds.triangles.empty());
 }
 
 TEST_CASE("cracks: the surface has the area, the opening and the times of what broke", "[cracks][snapshot]") {
@@ -240,8 +240,8 @@ TEST_CASE("cracks: faces that are damaged and not broken are on the surface when
           "[cracks][snapshot]") {
   cdem::Simulation s = two_slabs(softening_joint(cdem::Softening::linear));
   lead(s, {0, 0, 4e-5}, 8);
-  CHECK(s.crack_surface(false, "").bonds.triangles.empty());
-  const cdem::Snapshot damaged = s.crack_surface(true, "");
+  CHECK(cdem::crack_surface(s.model(), s.state(), s.log().breaks, false, "").bonds.triangles.empty());
+  const cdem::Snapshot damaged = cdem::crack_surface(s.model(), s.state(), s.log().breaks, true, "");
   REQUIRE(!damaged.bonds.triangles.empty());
   CHECK(std::isnan(damaged.bonds.triangle_fields[4].values[0]));
   CHECK(damaged.bonds.triangle_fields[5].values[0] == -1);

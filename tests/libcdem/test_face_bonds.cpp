@@ -148,8 +148,8 @@ TEST_CASE("face bonds: a body pulled apart breaks between its regions and falls 
   options.steps = 400;
   s.run(options);
   CHECK(s.counts().intact == 0);
-  CHECK(s.breaks().size() == static_cast<std::size_t>(s.counts().bonds));
-  for (const cdem::BreakRow& row : s.breaks())
+  CHECK(s.log().breaks.size() == static_cast<std::size_t>(s.counts().bonds));
+  for (const cdem::BreakRow& row : s.log().breaks)
     CHECK(row.place.z() == Approx(half).epsilon(1e-12));
   const auto pieces = s.fragments();
   REQUIRE(pieces.size() == 2);

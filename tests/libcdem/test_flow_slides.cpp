@@ -90,7 +90,7 @@ struct Cube {
     cdem::RunOptions options;
     options.duration = duration * unit_of_time;
     options.local_damping = local_damping;
-    options.stop = [&] { return local_damping == 0 && stops && !model.departures(watch).empty(); };
+    options.stop = [&] { return local_damping == 0 && stops && !model.log().watches.at(watch).left.empty(); };
     model.run(options);
   }
 };
@@ -110,8 +110,8 @@ TEST_CASE("a flow that rises slowly takes a lone cube at F = W' (sin a + mu cos 
   cube.rate = 0.005 * critical / cube.unit_of_time;
   cube.run(20);
   CAPTURE(mu, size, critical, cube.model.steps());
-  REQUIRE(cube.model.departures(cube.watch).size() == 1);
-  const cdem::Departure& left = cube.model.departures(cube.watch)[0];
+  REQUIRE(cube.model.log().watches.at(cube.watch).left.size() == 1);
+  const cdem::Departure& left = cube.model.log().watches.at(cube.watch).left[0];
   // While it goes its first 1e-3 h the flow rises by half a per cent: (3 x 1e-3 x 0.005^2 / (F / m g))^(1/3).
   CHECK(left.velocity == Approx(critical).epsilon(0.01));
   const double rises = left.displacement.z() / left.displacement.x(); // 1 where it turns about its upper edge
@@ -130,7 +130,7 @@ TEST_CASE("a lone cube stays under a flow held below the critical one, and slide
   cube.settle();
   cube.run(10);
   CAPTURE(mu, size);
-  CHECK(cube.model.departures(cube.watch).empty());
+  CHECK(cube.model.log().watches.at(cube.watch).left.empty());
   cube.velocity = 1.1 * critical;
   cube.stops = false;
   const double before = cube.model.mean("displacement.x", cdem::Selection::of_body("cube"));

@@ -202,7 +202,7 @@ TEST_CASE("a slow excavation in a run ends at the static answer without going be
     s.run(lasting(time - 0.5 * excavation.over));
     note_hash(s);
     double most = 0;
-    for (const cdem::HistoryRow& row : s.history())
+    for (const cdem::HistoryRow& row : s.log().history)
       most = std::max(most, row.probes.at(0));
     if (excavation.over > 0)
       CHECK(s.energy().balance_error() < 1e-4);

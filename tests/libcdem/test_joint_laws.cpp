@@ -1,4 +1,5 @@
 // Laws of joints in models: sheared blocks, small strain and moving, by joint set.
+#include "libcdem/results/units.hpp"
 #include "tests/libcdem/going_on.hpp"
 
 #include "libgeom/assembly/builders.hpp"
@@ -271,7 +272,7 @@ TEST_CASE("blocks that have parted rub with the friction of the set that held th
   // Of the centre of mass: m dvx = m g sin t - tan(phi) int N dt,  m dvz = int N dt - m g cos t, so x + tan(phi) z has a
   // constant acceleration through all hops. (A mean velocity of the block would add how it vibrates.)
   const auto place = [&] {
-    const Vec3 centre = s.units("rock").at(1).motion(Vec3(0.5, 0.5, 0.225));
+    const Vec3 centre = cdem::units_of(s.model(), s.state(), "rock").at(1).motion(Vec3(0.5, 0.5, 0.225));
     return centre.x() + std::tan(phi) * centre.z();
   };
   options.duration = 0.125;

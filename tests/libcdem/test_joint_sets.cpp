@@ -109,7 +109,7 @@ TEST_CASE("a glued cut is no joint: not among the joints, and without an outline
   const auto sums = s.joints({});
   REQUIRE(sums.size() == 1);
   CHECK(sums[0].set == "weak");
-  const cdem::Snapshot joints = s.joint_surface({}, "");
+  const cdem::Snapshot joints = cdem::joint_surface(s.model(), s.state(), {}, "");
   for (const geom::Vec3& x : joints.bonds.points)
     CHECK(x.x() == Approx(1));
   // Dug up to it, its face is the end of the bar.

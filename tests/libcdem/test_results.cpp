@@ -84,22 +84,23 @@ TEST_CASE("histories hold the beginning of a run, every tenth step, probes and t
   options.steps = 205;
   const double kinetic = s.energy().kinetic;
   const cdem::RunResult run = s.run(options);
-  REQUIRE(s.probe_names() == std::vector<std::string>{"end"});
-  REQUIRE(s.history().size() == 22); // the beginning, 20 and the last
+  REQUIRE(s.log().probes.size() == 1);
+  CHECK(s.log().probes[0].name == "end");
+  REQUIRE(s.log().history.size() == 22); // the beginning, 20 and the last
   for (int i = 0; i <= 20; ++i) {
-    CHECK(s.history()[i].step == 10 * i);
-    CHECK(s.history()[i].stage == 1);
-    CHECK(s.history()[i].time == Approx(10 * i * run.time_step).epsilon(1e-12));
+    CHECK(s.log().history[i].step == 10 * i);
+    CHECK(s.log().history[i].stage == 1);
+    CHECK(s.log().history[i].time == Approx(10 * i * run.time_step).epsilon(1e-12));
   }
-  CHECK(s.history().front().probes.at(0) == 1);
-  CHECK(s.history().front().kinetic == kinetic);
-  CHECK(s.history().back().step == 205);
-  CHECK(s.history().back().probes.at(0) == s.at("velocity.x", {0.19, 0.05, 0.05}));
-  CHECK(s.history().back().broken_tension == run.broken_tension);
+  CHECK(s.log().history.front().probes.at(0) == 1);
+  CHECK(s.log().history.front().kinetic == kinetic);
+  CHECK(s.log().history.back().step == 205);
+  CHECK(s.log().history.back().probes.at(0) == s.at("velocity.x", {0.19, 0.05, 0.05}));
+  CHECK(s.log().history.back().broken_tension == run.broken_tension);
   CHECK(run.broken_tension == s.counts().broken_tension);
-  CHECK(static_cast<std::int64_t>(s.breaks().size()) == run.broken_tension + run.broken_shear);
+  CHECK(static_cast<std::int64_t>(s.log().breaks.size()) == run.broken_tension + run.broken_shear);
   CHECK(run.broken_tension > 0);
-  CHECK(std::is_sorted(s.breaks().begin(), s.breaks().end(),
+  CHECK(std::is_sorted(s.log().breaks.begin(), s.log().breaks.end(),
                        [](const auto& a, const auto& b) { return a.step < b.step; }));
   CHECK(s.time() == Approx(205 * run.time_step).epsilon(1e-12));
 }
@@ -121,7 +122,7 @@ TEST_CASE("counts and block rows add up to the body", "[results]") {
     CHECK(row.generation == 0);
   }
   CHECK(volume == Approx(1).epsilon(1e-10));
-  CHECK((s.box().size() - Vec3(2, 1, 0.5)).norm() < 1e-12);
+  CHECK((s.model().box.size() - Vec3(2, 1, 0.5)).norm() < 1e-12);
 }
 
 TEST_CASE("a snapshot holds as many values as points and tets and bonds, and the tets fill the body",

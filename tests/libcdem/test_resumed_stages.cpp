@@ -133,8 +133,8 @@ TEST_CASE("resume: settling goes on where one unit has left the model, and tells
   };
   const auto solve = [](cdem::Simulation& s, int) {
     Figures figures = settle(s, true, 5);
-    REQUIRE(s.escapes().size() == 1);
-    figures.push_back(static_cast<double>(s.escapes()[0].step));
+    REQUIRE(s.log().escapes.size() == 1);
+    figures.push_back(static_cast<double>(s.log().escapes[0].step));
     return figures;
   };
   cdem::Simulation probe = beside_the_floor(1, nullptr);
@@ -153,7 +153,7 @@ TEST_CASE("resume: a search for the critical flow goes on in each of its parts",
   const auto solve = [&](cdem::Simulation& s, int) { return search(s, hold); };
   cdem::Simulation probe = build(1, nullptr);
   solve(probe, 0);
-  REQUIRE(probe.breaks().size() > 10);
+  REQUIRE(probe.log().breaks.size() > 10);
   check_going_on(build, solve, places(build, solve, {0.2, 0.45, 0.7, 0.97}));
 }
 

@@ -1,6 +1,7 @@
 // Cubes dropped on a floor come to rest, as rigid bodies first.
 #include "libcdem/procedure/settle.hpp"
 #include "libcdem/results/energy.hpp"
+#include "libcdem/results/units.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 
@@ -229,7 +230,9 @@ TEST_CASE("settle: with less friction a cube slides while it settles, and no lon
   cdem::Gravity gravity;
   gravity.acceleration = 9.81 * Vec3(std::sin(slope), 0, -std::cos(slope));
   s.gravity(gravity);
-  const auto slid = [&] { return s.units("cube")[0].motion(start).x() - start.x(); };
+  const auto slid = [&] {
+    return cdem::units_of(s.model(), s.state(), "cube")[0].motion(start).x() - start.x();
+  };
 
   cdem::SettleOptions options;
   options.local_damping = 0;

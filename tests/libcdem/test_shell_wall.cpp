@@ -1,4 +1,5 @@
 // Bodies on walls made of open surfaces (geom::shell_mesh).
+#include "libcdem/results/units.hpp"
 #include "tests/libcdem/boxes.hpp"
 
 #include "libgeom/assembly/builders.hpp"
@@ -67,7 +68,7 @@ TEST_CASE("blocks that fall into a drum from an open surface stay in it, and wha
   cdem::RunOptions options = over_time(2);
   options.local_damping = 0.2;
   s.run(options);
-  for (const cdem::Unit& unit : s.units("blocks")) {
+  for (const cdem::Unit& unit : cdem::units_of(s.model(), s.state(), "blocks")) {
     const Vec3& x = unit.centroid;
     CHECK(std::hypot(x.x(), x.z()) < r - 0.14); // half a block from its side
     CHECK(x.z() < -0.3);

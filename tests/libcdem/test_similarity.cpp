@@ -62,9 +62,9 @@ void check_same_story(const Story& a, const Story& b) {
       different += is[i].stress[c] != stress * was[i].stress[c];
   }
   CHECK(different == 0);
-  REQUIRE(b.model.breaks().size() == a.model.breaks().size());
-  for (std::size_t i = 0; i < b.model.breaks().size(); ++i) {
-    const cdem::BreakRow &then = a.model.breaks()[i], &now = b.model.breaks()[i];
+  REQUIRE(b.model.log().breaks.size() == a.model.log().breaks.size());
+  for (std::size_t i = 0; i < b.model.log().breaks.size(); ++i) {
+    const cdem::BreakRow &then = a.model.log().breaks[i], &now = b.model.log().breaks[i];
     different += now.step != then.step || now.mode != then.mode || now.place != length * then.place ||
                  now.normal_traction != stress * then.normal_traction;
   }
@@ -144,7 +144,7 @@ Story cubes_in_a_flow(double k) {
   cdem::RunOptions run;
   run.duration = 1 * of.time;
   story.model.run(run);
-  story.left = story.model.departures(watch);
+  story.left = story.model.log().watches.at(watch).left;
   return story;
 }
 
@@ -176,7 +176,7 @@ Story plate_cut(double k) {
 TEST_CASE("similarity: a bar that breaks and whose pieces collide is the same motion at every scale",
           "[contact][face_bonds][similarity]") {
   const Story one = bar_thrown(1);
-  CHECK(one.model.breaks().size() > 20);
+  CHECK(one.model.log().breaks.size() > 20);
   CHECK(one.model.energy().friction > 0);
   for (const double k : {2.0, 0.5}) {
     INFO("times " << k);
@@ -196,7 +196,7 @@ TEST_CASE("similarity: units that settle and leave in a flow do so alike at ever
 
 TEST_CASE("similarity: blocks that are cut and break do so alike at every scale", "[refine][similarity]") {
   const Story one = plate_cut(1);
-  CHECK(one.model.breaks().size() > 10);
+  CHECK(one.model.log().breaks.size() > 10);
   for (const double k : {2.0, 0.5}) {
     INFO("times " << k);
     check_same_story(one, plate_cut(k));

@@ -155,10 +155,10 @@ TEST_CASE("a watch goes on from a saved model, and can be taken back to a step t
   whole.initial_velocity(right, {0, 1, 0});
   REQUIRE(whole.watch("units", 0.5) == 0);
   whole.run(options);
-  REQUIRE(whole.departures(0).size() == 1);
+  REQUIRE(whole.log().watches.at(0).left.size() == 1);
   const std::string saved = whole.save();
   whole.run(options);
-  REQUIRE(whole.departures(0).size() == 2);
+  REQUIRE(whole.log().watches.at(0).left.size() == 2);
   const bool watched_first = GENERATE(true, false);
   cdem::Simulation next = build_units();
   if (watched_first)
@@ -166,19 +166,19 @@ TEST_CASE("a watch goes on from a saved model, and can be taken back to a step t
   next.restore(saved);
   if (!watched_first)
     CHECK(next.watch("units", 0.5) == 0);
-  CHECK(next.departures(0).size() == 1);
+  CHECK(next.log().watches.at(0).left.size() == 1);
   next.run(options);
-  REQUIRE(next.departures(0).size() == 2);
+  REQUIRE(next.log().watches.at(0).left.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
-    CHECK(next.departures(0)[i].unit == static_cast<int>(i) + 1);
-    CHECK(next.departures(0)[i].step == whole.departures(0)[i].step);
-    CHECK(next.departures(0)[i].displacement == whole.departures(0)[i].displacement);
+    CHECK(next.log().watches.at(0).left[i].unit == static_cast<int>(i) + 1);
+    CHECK(next.log().watches.at(0).left[i].step == whole.log().watches.at(0).left[i].step);
+    CHECK(next.log().watches.at(0).left[i].displacement == whole.log().watches.at(0).left[i].displacement);
   }
   cdem::Watch watch;
   watch.blocks = {4, 7};
   watch.gone.assign(8, 1);
-  watch.left = whole.departures(0);
-  const cdem::Watch then = cdem::watch_at(watch, whole.departures(0)[0].step);
+  watch.left = whole.log().watches.at(0).left;
+  const cdem::Watch then = cdem::watch_at(watch, whole.log().watches.at(0).left[0].step);
   CHECK(units_left(then) == std::vector<int>{1});
   CHECK((then.gone[4] == 1 && then.gone[7] == 0));
 }

@@ -11,6 +11,14 @@ struct StoppedScript : Script {
     write("helper.lua", "return { factor = 1 }");
   }
 
+  // Runs to its end; returns how often it looked whether to stop.
+  int count_looks() {
+    int looks = 0;
+    listener->stop = [&] { return ++looks < 0; };
+    run();
+    listener->stop = nullptr;
+    return looks;
+  }
   // Stops at the given look; true when the script had ended before.
   bool ends_before(int look) {
     int looks = 0;

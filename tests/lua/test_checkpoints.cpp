@@ -137,9 +137,7 @@ cdem.report{ { name = "hash", value = model.state_hash }, { name = "state", valu
   { name = "passes", value = passes }, { name = "blocks", value = model:counts().blocks } }
 )";
   StoppedScript whole(text), broken(text);
-  int looks = 0;
-  whole.listener->stop = [&] { return ++looks < 0; };
-  whole.run();
+  const int looks = whole.count_looks();
   REQUIRE_FALSE(broken.ends_before(looks * 3 / 4));
   broken.go_on_from_newest();
   broken.run();
@@ -176,9 +174,7 @@ cdem.report{ { name = "hash", value = model.state_hash }, { name = "calls", valu
   { name = "phases", value = #settled.phases }, { name = "velocity", value = found.velocity } }
 )";
   StoppedScript whole(text);
-  int looks = 0;
-  whole.listener->stop = [&] { return ++looks < 0; };
-  whole.run();
+  const int looks = whole.count_looks();
   CHECK_THAT(whole.text("report.json"), Contains("\"phases\""));
   for (const double part : {0.3, 0.6, 0.85, 0.97}) {
     INFO("stopped after " << part << " of the looks");

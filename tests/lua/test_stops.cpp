@@ -39,9 +39,7 @@ seen[#seen + 1] = model:mean("displacement.y", at(0))
 cdem.report{ { name = "hash", value = model.state_hash }, { name = "seen", value = table.concat(seen, " ") } }
 )";
   StoppedScript whole(text);
-  int looks = 0;
-  whole.listener->stop = [&] { return ++looks < 0; };
-  whole.run();
+  const int looks = whole.count_looks();
   const std::string report = whole.text("report.json"), history = whole.read("history.csv");
   int kept = 0, lost_after = 0;
   for (int look = 1; look <= looks; ++look) {
@@ -96,9 +94,7 @@ cdem.report{ { name = "factor", value = found.factor }, { name = "hash", value =
   { name = "grown", value = grown.state }, { name = "other", value = other.state_hash } }
 )";
   StoppedScript whole(text);
-  int looks = 0;
-  whole.listener->stop = [&] { return ++looks < 0; };
-  whole.run();
+  const int looks = whole.count_looks();
   bool begun = false;
   for (int look = 1; look <= looks; look += 1 + looks / 60) {
     StoppedScript broken(text);

@@ -154,7 +154,7 @@ local function told_bodies()
     local ok, far = pcall(function() return model:max("displacement.magnitude", name) end)
     local ok_too, press = pcall(function() return model:min("principal_stress.3", name) end)
     if not relaxed then
-      print("BODY", stage, name, ok and text(far) or "-", ok_too and text(press) or "-")
+      print("BODY", stage, text(model.time), name, ok and text(far) or "-", ok_too and text(press) or "-")
     end
   end
 end

@@ -57,6 +57,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   const geom::Vec3 velocity = velocity_past(state_, arms);
   motion.slid = work_.step * velocity;
   motion.step = work_.step;
+  motion.in_relaxation = !work_.restitution;
   ContactForce force;
   const bool own = old && key(*old) == key(c);
   if (own && work_.step == 0 && old->target == c.target) {
@@ -78,8 +79,6 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     if (work_.restitution && law.damping_ratio > 0)
       set_approach(c, law, arms, velocity, from, to, motion);
     const ContactLoss loss = advance(c, law, motion);
-    if (!work_.restitution && law.damping_ratio > 0)
-      c.at_rest = c.effective_penetration(); // a relaxation finds the rest
     force.friction += loss.friction;
     force.damping = loss.damping;
   }

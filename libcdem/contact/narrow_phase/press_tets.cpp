@@ -257,6 +257,7 @@ private:
       motion.depth = c.reference_penetration + pressed;
       motion.slid = {push.slid[0][lane], push.slid[1][lane], push.slid[2][lane]};
       motion.turned = push.turned[lane];
+      motion.in_relaxation = !work_.restitution;
       const double closing = push.closing[lane];
       if (work_.restitution && law.damping_ratio > 0)
         set_approach(c, law, closing, force * push.compliance[lane], motion);
@@ -265,8 +266,6 @@ private:
         c.damping *= std::sqrt(law.kn / c.stiffness);
       const double jump = 0.5 * (damping - c.damping) * closing; // J
       const ContactLoss loss = advance(c, law, motion);
-      if (!work_.restitution && law.damping_ratio > 0)
-        c.at_rest = c.effective_penetration();
       out_.friction.push_back(loss.friction);
       out_.damping.push_back(loss.damping + jump);
       c.stiffness = law.kn;

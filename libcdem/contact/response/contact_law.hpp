@@ -62,6 +62,7 @@ struct ContactMotion {
   double approach = 0;                    // s of restitution: 1 the bodies approach, -1 they separate
   double acceleration = 0;                // m/s2, a of restitution
   double held_at_most = 0;                // part of the damping force that may act, part_held
+  bool in_relaxation = false; // its steps are no times, and it finds the contact at rest
 };
 
 // What a contact loses in a step, J, >= 0.
@@ -133,8 +134,11 @@ inline double reversible_speed(const Contact& c, const ContactMotion& m) {
 inline void advance_rest(Contact& c, const ContactMotion& m) {
   constexpr double time_scales = 60; // some ten oscillations, twenty times as long as an impact
   const double pressed = c.effective_penetration();
-  const double part = pressed > 0 ? m.step * std::sqrt(m.acceleration / pressed) / time_scales : 1;
-  c.at_rest += std::min(1.0, part) * (pressed - c.at_rest);
+  if (m.in_relaxation || !(pressed > 0))
+    c.at_rest = pressed;
+  else
+    c.at_rest +=
+        std::min(1.0, m.step * std::sqrt(m.acceleration / pressed) / time_scales) * (pressed - c.at_rest);
 }
 
 // Advances the force of restitution of a contact that is as deep as it is now. closing: m, in the step. Returns what it

@@ -89,7 +89,7 @@ std::vector<ChartMark> marks_of_stages(const Session& session, const ModelObject
                                        const std::vector<double>& x) {
   std::vector<ChartMark> marks;
   auto stage = session.stages.begin();
-  const auto& rows = model.simulation.history();
+  const auto& rows = model.simulation.log().history;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (row > 0 && rows[row].stage == rows[row - 1].stage)
       continue;

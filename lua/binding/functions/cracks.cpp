@@ -3,6 +3,7 @@
 #include "lua/binding/session/model_object.hpp"
 
 #include "libcdem/material/wave_speeds.hpp"
+#include "libcdem/results/crack_tip.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -65,7 +66,7 @@ std::vector<Vec3> corners_of(const ModelObject& model, const Arguments& a) {
     if (!(direction.norm() > 0))
       throw InputError("direction", describe(a.value("direction")), "longer than zero");
     corners = {a.vec3("point"),
-               a.vec3("point") + model.simulation.box().size().norm() * direction.normalized()};
+               a.vec3("point") + model.simulation.model().box.size().norm() * direction.normalized()};
   }
   for (std::size_t i = 1; i < corners.size(); ++i)
     if (corners[i] == corners[i - 1])
@@ -95,7 +96,7 @@ const Record<CrackTipRow> tip_row{
      {number("step").doc("within the stage"), &CrackTipRow::step}}};
 
 Value crack_tip(Session&, ModelObject& model, const Arguments& a) {
-  const auto& breaks = model.simulation.breaks();
+  const auto& breaks = model.simulation.log().breaks;
   CrackLine path{corners_of(model, a), a.number("width"), 0};
   const double distance = usual_distance(breaks, path.corners, path.width);
   path.reach = a.optional_number("reach").value_or(distance > 0 ? usual_reach * distance : path.width);

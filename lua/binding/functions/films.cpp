@@ -62,7 +62,7 @@ void take_frame(Session& session, ModelObject& model, const Film& film) {
   if (!film.frame.has("title"))
     frame->named["title"] = film.when.steps > 0 ? "step " + std::to_string(simulation.steps())
                                                 : time_text(simulation.time(), film.when.seconds);
-  if (const geom::Box box = simulation.box(); !film.frame.has("fit") && !film.frame.has("camera"))
+  if (const geom::Box box = simulation.model().box; !film.frame.has("fit") && !film.frame.has("camera"))
     frame->named["fit"] = box;
   model_picture(session, model, Arguments(frame));
   auto& frames = model.series[session.files.would_write(film.file).string()];

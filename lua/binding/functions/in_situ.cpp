@@ -75,9 +75,9 @@ Value initial_stress(Session& session, ModelObject& model, const Arguments& a) {
   if (a.has("stress"))
     line += " " + describe(a.value("stress")) + " Pa";
   if (a.has("gradient"))
-    line += (a.has("stress") ? " and " : " ") + describe(a.value("gradient")) +
-            " Pa per metre below z = " + number_text(field.surface.value_or(model.simulation.box().max.z())) +
-            " m, K0 " + describe(a.value("k0"));
+    line += (a.has("stress") ? " and " : " ") + describe(a.value("gradient")) + " Pa per metre below z = " +
+            number_text(field.surface.value_or(model.simulation.model().box.max.z())) + " m, K0 " +
+            describe(a.value("k0"));
   model.notes->conditions.push_back(line + " in " + field.on.text);
   if (beyond.points > 0)
     session.warn("initial_stress: " + geom::counted(beyond.points, "joint point is", "joint points are") +
@@ -102,7 +102,7 @@ const Record<RelaxOptions> balance_options{
 Value gravity_stress(Session& session, ModelObject& model, const Arguments& a) {
   RelaxOptions options = balance_options.read(a);
   options.breaking = false;
-  if (!model.simulation.has_gravity())
+  if (!model.simulation.conditions().gravity)
     throw InputError("gravity_stress: no gravity acts; call model:gravity{ vector = {0, 0, -9.81} } first");
   return stage(session, model, "gravity_stress", a, relax_record({}), [&](Simulation& simulation) {
     const RelaxResult result = simulation.relax(options);

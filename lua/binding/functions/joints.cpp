@@ -68,7 +68,8 @@ const Record<NamedPoint> joint_point{
      {number("slip", "m"), [](const NamedPoint& p) { return p.second.slip; }}}};
 
 Table joint_points(Session&, ModelObject& model, const Arguments& a) {
-  return joint_point.columns(model.simulation.joint_points(joint_choice(model, a)));
+  return joint_point.columns(
+      cdem::joint_points(model.simulation.model(), model.simulation.state(), joint_choice(model, a)));
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // Results of a model as Lua values.
+#include "libcdem/results/overlap.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/session/selections.hpp"
@@ -118,18 +119,19 @@ Value reaction(Session&, ModelObject& model, const Arguments& a) {
 }
 
 Value fields(ModelObject&) {
-  return as_value(Simulation::field_names());
+  return as_value(cdem::field_names());
 }
 
 Value energy(Session&, ModelObject& model, const Arguments&) {
   const EnergyLedger e = model.simulation.energy();
   Table table = energy_record(e);
-  table.named["one_way_error"] = model.simulation.impossible_energy(e).part;
+  table.named["one_way_error"] =
+      cdem::impossible_energy(e, model.simulation.time(), model.simulation.log().one_way).part;
   return table;
 }
 
 Table overlap(ModelObject& model) {
-  return overlap_record(model.simulation.overlap());
+  return overlap_record(cdem::overlap(model.simulation.model(), model.simulation.state()));
 }
 
 Table blocks(ModelObject& model) {
@@ -137,7 +139,7 @@ Table blocks(ModelObject& model) {
 }
 
 Table breaks(ModelObject& model) {
-  return break_row.list(model.simulation.breaks());
+  return break_row.list(model.simulation.log().breaks);
 }
 
 Value history(Session&, ModelObject& model, const Arguments&) {
@@ -149,7 +151,7 @@ Value history(Session&, ModelObject& model, const Arguments&) {
 
 Value probe(Session&, ModelObject& model, const Arguments& a) {
   model.require_idle("probe");
-  std::vector<std::string> taken = model.simulation.probe_names();
+  std::vector<std::string> taken;
   for (const auto& [name, values] : history_columns(model.simulation))
     taken.push_back(name);
   const std::string name = column_name(a, "it becomes a column");

@@ -209,7 +209,7 @@ std::string shown_parts(const PartCounts& in_parts) {
 
 std::string shown_build(const ModelObject& model) {
   const ModelCounts c = model.simulation.counts();
-  const geom::Box box = model.simulation.box();
+  const geom::Box box = model.simulation.model().box;
   return geom::counted(c.bodies, "body", "bodies") + " (" + joined(model.body_names) + "), " +
          geom::counted(c.blocks, "block") + ", " + geom::counted(c.tets, "tet") + ", " +
          geom::counted(c.interfaces, "interface") + ", " + geom::counted(c.bonds, "bond") + "; box from " +

@@ -1,4 +1,5 @@
 // What a model tells of itself: its properties, counts, box, process zones, and places with a name.
+#include "libcdem/results/process_zone.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/session/model_object.hpp"
 #include "lua/binding/session/selections.hpp"
@@ -43,7 +44,7 @@ const Record<ProcessZone> process_zone{
       &ProcessZone::faces_in_zone}}};
 
 Table process_zones(ModelObject& model) {
-  return process_zone.list(model.simulation.process_zones());
+  return process_zone.list(cdem::process_zones(model.simulation.model()));
 }
 
 Value select(Session&, ModelObject& model, const Arguments& a) {
@@ -114,7 +115,7 @@ void bind_model_class(Module& m) {
             process_zones, "cdem.ProcessZone[]");
   model.add(
       "box", "Smallest axis-aligned box around the undeformed model.", {},
-      [](ModelObject& self) { return self.simulation.box(); }, "cdem.Box");
+      [](ModelObject& self) { return self.simulation.model().box; }, "cdem.Box");
   m.classes.push_back(model);
 }
 

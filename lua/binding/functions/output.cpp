@@ -7,6 +7,8 @@
 #include "lua/binding/replay/led.hpp"
 #include "lua/binding/session/model_object.hpp"
 
+#include "libcdem/results/contact_points.hpp"
+#include "libcdem/results/crack_surface.hpp"
 #include "libcdem/vtk/block_marks.hpp"
 #include "libcdem/vtk/field_values.hpp"
 #include "libcdem/vtk/pieces.hpp"
@@ -77,8 +79,9 @@ Value save(Session& session, ModelObject& model, const Arguments& a) {
   add("", write_vtu(snapshot, to_write(session, name, snapshot.tets.size(), limit), limit));
   add("_bonds",
       write_bonds(snapshot, to_write(session, bonds, snapshot.bonds.triangles.size(), limit), limit));
-  if (model.simulation.can_touch()) {
-    const std::vector<ContactPoint> points = model.simulation.contact_points();
+  if (!model.simulation.model().surface.empty()) {
+    const std::vector<ContactPoint> points =
+        cdem::contact_points(model.simulation.model(), model.simulation.state());
     add("_contacts",
         write_contacts(points, snapshot, to_write(session, contacts, points.size(), limit), limit));
   }
@@ -110,14 +113,17 @@ Value save_surface(Session& session, ModelObject& model, const Arguments& a, con
 
 Value save_cracks(Session& session, ModelObject& model, const Arguments& a) {
   return save_surface(session, model, a, [&] {
-    return model.simulation.crack_surface(a.flag("damaged"), model.title(session));
+    return cdem::crack_surface(model.simulation.model(), model.simulation.state(),
+                               model.simulation.log().breaks, a.flag("damaged"), model.title(session));
   });
 }
 
 Value save_joints(Session& session, ModelObject& model, const Arguments& a) {
   const JointChoice choice = joint_choice(model, a);
-  return save_surface(session, model, a,
-                      [&] { return model.simulation.joint_surface(choice, model.title(session)); });
+  return save_surface(session, model, a, [&] {
+    return cdem::joint_surface(model.simulation.model(), model.simulation.state(), choice,
+                               model.title(session));
+  });
 }
 
 const Record<PictureOptions> model_view{
@@ -235,7 +241,7 @@ Value model_picture(Session& session, ModelObject& model, const Arguments& a) {
   require_drawing(a.text("file"));
   require_together(a);
   PictureOptions options = picture_options(a);
-  const geom::Vec3 gravity = model.simulation.gravity_vector();
+  const geom::Vec3 gravity = model.simulation.conditions().gravity.value_or(Gravity()).acceleration;
   if (!a.has("up") && std::abs(gravity.z()) > std::max(std::abs(gravity.x()), std::abs(gravity.y())))
     options.up = "z";
   for (const Value& body : a.list("plain"))

@@ -20,7 +20,7 @@ struct WatchObject final : Object {
   std::shared_ptr<ModelObject> model;
   std::size_t number = 0;
   const char* class_name() const override { return "Watch"; }
-  const std::vector<Departure>& left() const { return model->simulation.departures(number); }
+  const std::vector<Departure>& left() const { return model->simulation.log().watches.at(number).left; }
 };
 
 const WatchObject& watch_of(const Object& self) {

@@ -2,7 +2,9 @@
 
 #include "libcdem/memory_needed.hpp"
 #include "libcdem/ranks/ranks.hpp"
+#include "libcdem/results/deformation.hpp"
 #include "libcdem/results/one_way_energies.hpp"
+#include "libcdem/results/process_zone.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/step/errors.hpp"
 #include "lua/binding/schema/angles.hpp"
@@ -29,7 +31,7 @@ std::string of_stage(const Stage& stage) {
 
 // One line a stage, of what small strain cannot hold (results/deformation.hpp says why these limits).
 void warn_of_large_deformation(Session& session, const ModelObject& model, const Stage& stage) {
-  const Deformation d = model.simulation.deformation();
+  const Deformation d = largest_deformation(model.simulation.model(), model.simulation.state());
   std::string found;
   if (d.strain > small_strain)
     found = "block " + std::to_string(d.strain_block) + " is strained by " + three_digits(100 * d.strain) +
@@ -64,7 +66,7 @@ struct Cause {
 Cause likely_cause(const ModelObject& model) {
   const Simulation& simulation = model.simulation;
   const ContactSummary contacts = simulation.contacts();
-  const Deformation d = simulation.deformation();
+  const Deformation d = largest_deformation(simulation.model(), simulation.state());
   if (degrees(d.turn) > small_turn)
     return {"blocks of small strain that turn", "leave element = \"small_strain\" out"};
   if (contacts.deepest_over_height > deep_contact)
@@ -74,7 +76,7 @@ Cause likely_cause(const ModelObject& model) {
   if (contacts.deepest > 0)
     return {"contacts that open and close or change over from face to face",
             "take a smaller safety, softer contacts, or damping"};
-  if (!simulation.breaks().empty())
+  if (!simulation.log().breaks.empty())
     return {"bonds that break within a step", "take a smaller safety"};
   return {"a time step too near the stable one", "take a smaller safety or time_step"};
 }
@@ -134,7 +136,7 @@ void warn_of_slivers(Session& session, ModelObject& model) {
 
 void note_process_zones(Session& session, ModelObject& model) {
   std::string coarse;
-  for (const ProcessZone& zone : model.simulation.process_zones()) {
+  for (const ProcessZone& zone : cdem::process_zones(model.simulation.model())) {
     const std::string found = "process zone E' G_I / T^2 of " + zone.of + ": " + three_digits(zone.length) +
                               " m; faces of " + three_digits(zone.face_size) + " m";
     model.notes->process_zones.push_back(found + ", " + three_digits(zone.faces_in_zone()) +
@@ -179,7 +181,8 @@ void check_energy(Session& session, ModelObject& model, const Stage& stage) {
   if (stopped_short(stage.result))
     return;
   const EnergyLedger energy = model.simulation.energy();
-  const ImpossibleEnergy impossible = model.simulation.impossible_energy(energy);
+  const ImpossibleEnergy impossible =
+      cdem::impossible_energy(energy, model.simulation.time(), model.simulation.log().one_way);
   const double open = energy.balance_error(), worst = std::max(open, impossible.part);
   if (worst <= open_balance || (worst <= broken_balance && worst < tell_again * model.told_open))
     return;

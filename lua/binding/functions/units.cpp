@@ -1,4 +1,5 @@
 // The units of a model's body: the pile they are now, its measures, and which of them lie lowest.
+#include "libcdem/results/units.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/session/model_object.hpp"
@@ -40,7 +41,8 @@ const geom::Pile& first_pile(const ModelObject& model, const std::string& body) 
 
 Value pile(Session&, ModelObject& model, const Arguments& a) {
   geom::Pile now = first_pile(model, a.text("body"));
-  const std::vector<Unit> units = model.simulation.units(a.text("body"));
+  const std::vector<Unit> units =
+      cdem::units_of(model.simulation.model(), model.simulation.state(), a.text("body"));
   for (std::size_t i = 0; i < units.size(); ++i)
     now.poses[i] = geom::after(units[i].motion, now.poses[i]);
   return std::make_shared<PileObject>(std::move(now));
@@ -80,7 +82,8 @@ Value measures(Session& session, ModelObject& model, const Arguments& a) {
     return table;
   }
   geom::Surface ground;
-  for (const geom::Surface& part : model.simulation.surfaces(a.text("onto"))) {
+  for (const geom::Surface& part :
+       surfaces_of(model.simulation.model(), model.simulation.state(), a.text("onto"))) {
     const int before = static_cast<int>(ground.points.size());
     ground.points.insert(ground.points.end(), part.points.begin(), part.points.end());
     for (geom::Triangle t : part.triangles) {
@@ -89,10 +92,12 @@ Value measures(Session& session, ModelObject& model, const Arguments& a) {
       ground.triangles.push_back(t);
     }
   }
-  Table table = touching_record(model.simulation.touching(a.text("body")));
+  Table table =
+      touching_record(cdem::touching(model.simulation.model(), model.simulation.state(), a.text("body")));
   try {
-    table.named.merge(layer_record(geom::measure_pile(model.simulation.surfaces(a.text("body")), ground,
-                                                      first.height, geom::volume(first.unit)))
+    table.named.merge(layer_record(geom::measure_pile(surfaces_of(model.simulation.model(),
+                                                                  model.simulation.state(), a.text("body")),
+                                                      ground, first.height, geom::volume(first.unit)))
                           .named);
   } catch (const InputError& unmeasurable) {
     session.warn(std::string("pile_measures: ") + unmeasurable.what() +
@@ -107,7 +112,8 @@ Value furthest(ModelObject& model, const Arguments& a, double sign) {
   const geom::Vec3 up = a.vec3("up");
   if (!(up.norm() > 0))
     throw InputError("up", describe(a.value("up")), "longer than zero");
-  const std::vector<Unit> units = model.simulation.units(a.text("body"));
+  const std::vector<Unit> units =
+      cdem::units_of(model.simulation.model(), model.simulation.state(), a.text("body"));
   const auto count = a.integer("count");
   if (count > static_cast<std::int64_t>(units.size()))
     throw InputError("count", std::to_string(count),

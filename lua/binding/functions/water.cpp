@@ -77,7 +77,7 @@ Value water(Session& session, ModelObject& model, const Arguments& a) {
   std::string line;
   const WaterInJoints sum = model.simulation.water(water_of(model, a, line));
   model.notes->conditions.push_back(line);
-  if (sum.points > 0 && model.simulation.has_buoyancy())
+  if (sum.points > 0 && model.simulation.conditions().gravity.value_or(Gravity()).water_density > 0)
     session.warn(
         "water: gravity has a water_density too, whose buoyancy holds for blocks that water surrounds; "
         "where joints carry the pressure it counts twice: leave water_density out");

@@ -130,9 +130,8 @@ void Checkpoints::go_live() {
   for (const auto& known : session_.models)
     if (const auto object = known.lock()) {
       object->simulation.set_replaying(false);
-      const auto [tension, shear] = object->simulation.told_broken();
-      broken[0] += tension;
-      broken[1] += shear;
+      broken[0] += object->simulation.log().told_tension;
+      broken[1] += object->simulation.log().told_shear;
     }
   if (session_.settings.observer)
     session_.settings.observer->goes_on(broken[0], broken[1],

@@ -68,7 +68,7 @@ void ModelObject::write_films(const Session& session) {
 }
 
 std::vector<std::pair<std::string, std::vector<double>>> history_columns(const Simulation& simulation) {
-  const auto& rows = simulation.history();
+  const auto& rows = simulation.log().history;
   std::vector<std::pair<std::string, std::vector<double>>> columns;
   const auto add = [&](const std::string& name, auto get) {
     std::vector<double> values;
@@ -85,9 +85,9 @@ std::vector<std::pair<std::string, std::vector<double>>> history_columns(const S
   add("external_work", [](const auto& r) { return r.external; });
   add("broken_tension", [](const auto& r) { return r.broken_tension; });
   add("broken_shear", [](const auto& r) { return r.broken_shear; });
-  const auto names = simulation.probe_names();
-  for (std::size_t i = 0; i < names.size(); ++i)
-    add(names[i], [i](const auto& r) {
+  const std::vector<Probe>& probes = simulation.log().probes;
+  for (std::size_t i = 0; i < probes.size(); ++i)
+    add(probes[i].name, [i](const auto& r) {
       // Samples older than the probe have no value.
       return i < r.probes.size() ? r.probes[i] : std::nan("");
     });
