@@ -281,6 +281,7 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
 }
 
 std::int64_t Simulation::make_rigid(const Selection& on) {
+  impl_->warn_of_welded_pieces(on);
   return impl_->convert(on, set_rigid);
 }
 

@@ -59,6 +59,7 @@ struct Simulation::Impl {
   void warn_of_open_water(const StillWater&);
   void warn_of_uneven_bed(const Flow&);
   void warn_of_unstressed_rock();
+  void warn_of_welded_pieces(const Selection&);
   // Initial stresses that the script has given before the first stage, and the blocks of each.
   struct GivenStress {
     InitialStress field;

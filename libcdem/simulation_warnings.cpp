@@ -1,6 +1,7 @@
 // What a model is asked that it can do but that hardly anybody means. Each is told once.
 #include "libcdem/simulation_impl.hpp"
 
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/load/water_table.hpp"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace cdem {
@@ -301,6 +303,24 @@ void Simulation::Impl::warn_of_stress_jumps() {
   }
   if (!line.empty())
     tell(line);
+}
+
+// The blocks at this place that are in pieces and turn rigid.
+void Simulation::Impl::warn_of_welded_pieces(const Selection& on) {
+  if (replaying)
+    return;
+  const std::vector<int> pieces = fragments_of_nodes(model, whole());
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
+    const Block& block = model.blocks[b];
+    if (!selects_block(model, on, b))
+      continue;
+    const std::set<int> of_block(pieces.begin() + block.node_begin, pieces.begin() + block.node_end);
+    if (of_block.size() > 1)
+      tell(
+          fmt::format("make_rigid: block {} of body \"{}\" is broken into {} pieces, which move as one rigid "
+                      "body from here on; make_deformable sets them free again",
+                      block.id, model.bodies[block.body].name, of_block.size()));
+  }
 }
 
 void Simulation::Impl::warn_of_distant_table(const std::shared_ptr<const WaterTable>& table) {
