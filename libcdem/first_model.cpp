@@ -191,8 +191,8 @@ void require_plasticity(const BodySpec& body) {
     throw geom::InputError("plasticity", "of a body of small strain", "of a body that moves far",
                            "leave element = \"small_strain\" out");
   if (body.bonding.is_cohesive())
-    throw geom::InputError("plasticity", "of a mesh with cohesive faces",
-                           "of a mesh without a joint, or of blocks",
+    throw geom::InputError("plasticity", "of a body with cohesive faces",
+                           "of a body without a joint, or with bonds = \"springs\"",
                            "leave the joint out, or the plasticity");
   for (const auto& [region, law] : body.plasticity.regions) {
     bool there = false;

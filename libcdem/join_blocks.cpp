@@ -58,6 +58,8 @@ void join_blocks(BodySpec& body) {
   const geom::DividedFaces all = divided_faces_of(blocks);
   std::map<std::pair<int, int>, const Joint*> own; // by regions
   const Joint held = unbreakable();
+  if (body.joint.glued)
+    body.joint = held;
   for (const geom::FacePart& part : all.parts) {
     if (part.block_b < 0)
       continue;
@@ -70,7 +72,7 @@ void join_blocks(BodySpec& body) {
       for (const geom::PolyhedronFace* face : {&b, &a}) // that of the first block counts
         if (const auto found = body.set_joints.find(face->cut);
             !face->glued && found != body.set_joints.end())
-          own[regions] = &found->second;
+          own[regions] = found->second.glued ? &held : &found->second;
   }
   for (const auto& [regions, joint] : own) {
     body.region_laws.regions.push_back(regions);

@@ -144,6 +144,7 @@ void Simulation::initial_velocity(const Selection& on, const geom::Vec3& velocit
 }
 
 std::int64_t Simulation::make_rigid(const Selection& on) {
+  impl_->warnings.of_joined_pieces(on);
   return convert(*impl_, on, set_rigid);
 }
 

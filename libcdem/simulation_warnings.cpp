@@ -1,5 +1,6 @@
 #include "libcdem/simulation_warnings.hpp"
 
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/resolve.hpp"
@@ -226,6 +227,23 @@ void Warnings::of_unstressed_rock() {
 }
 
 // Layers that are given their stress one by one are in balance only where both sides of their border have one traction.
+void Warnings::of_joined_pieces(const Selection& turns_rigid) {
+  if (of_.replaying)
+    return;
+  const std::vector<int> pieces = fragments_of_nodes(model_, of_.whole());
+  for (int b = 0; b < static_cast<int>(model_.blocks.size()); ++b) {
+    const Block& block = model_.blocks[b];
+    if (!selects_block(model_, turns_rigid, b))
+      continue;
+    const std::set<int> of_block(pieces.begin() + block.node_begin, pieces.begin() + block.node_end);
+    if (of_block.size() > 1)
+      tell(
+          fmt::format("make_rigid: block {} of body \"{}\" is broken into {} pieces, which move as one rigid "
+                      "body from here on; make_deformable sets them free again",
+                      block.id, model_.bodies[block.body].name, of_block.size()));
+  }
+}
+
 void Warnings::of_stress_jumps() {
   constexpr double alike = 0.05; // of the larger traction
   const auto given = std::exchange(given_stress_, {});

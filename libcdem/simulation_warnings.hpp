@@ -21,6 +21,7 @@ public:
   void of_initial_stress(const InitialStress&); // when it has been given
   void of_distant_table(const std::shared_ptr<const WaterTable>&);
   void of_open_water(const StillWater&);
+  void of_joined_pieces(const Selection& turns_rigid);
   void of_lost_probes();    // when rock has been removed
   void of_falling_forces(); // of an excavation, before a relaxation
   // Looks which flows wet a face between these times of a run, s.

@@ -202,6 +202,34 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const
   return before - stored(batch, lane, f, joint, state, face) - work;
 }
 
+void break_face(const Model& model, State& of_all, const MeshChunk& chunk, std::int64_t number, int lane,
+                const geom::Mat3& stress) {
+  const FaceBatch& batch = model.mesh.faces[number];
+  FaceStateBatch& state = of_all.faces[number];
+  CohesiveFace& face = of_all.cohesive[number * lanes + lane];
+  const FaceFrame f = face_frame(
+      face_nodes(model.mesh, chunk, number, lane), [&](int node) { return place_of(model, of_all, node); },
+      [&](int node) { return cdem::vec(of_all.displacement[node]); });
+  Joint room;
+  const Joint& joint =
+      FaceJoints(model, of_all, chunk).of((number - chunk.face_batches.begin) * lanes + lane, room);
+  const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));
+  CohesiveFace broken;
+  broken.plane[2] = 1;
+  broken.damage = {1, 1, 1};
+  for (int point = 0; point < 3; ++point) {
+    const Vec3 traction = stress * f.normal +
+                          cohesive_spring(batch, lane, f, point, joint, state, face).force / batch.area[lane];
+    const Vec3 stretch = f.in_axes(traction) / law.kn;
+    broken.offset[point] = array(vec(parts_of_stretch<double>(law, {0, 0, 1}, triple(stretch)).pressed));
+    broken.start[point] = array(f.in_axes(f.gap[point]));
+    state.mode[point][lane] = static_cast<std::uint8_t>(BondMode::contact);
+  }
+  face = broken;
+  state.stage[lane] = FaceStage::cracking;
+  state.preloaded[lane] = 0;
+}
+
 double let_go(const FaceBatch& batch, int lane, const FaceMoment& at, const Joint& joint,
               FaceStateBatch& state, CohesiveFace& face) {
   const SofteningLaw law = cohesive_law(joint, penalty(batch, lane));

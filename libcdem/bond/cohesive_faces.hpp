@@ -61,6 +61,11 @@ struct FaceMoment {
 double begin_crack(const FaceBatch&, int lane, const FaceMoment&, const Joint&, const geom::Vec3& m, BondMode,
                    FaceStateBatch&, CohesiveFace&);
 
+// Makes the face a crack without strength along its own plane. It keeps what pressure and friction hold of the traction that
+// its sides have now: that of its springs and, Pa, in space, that of `stress` on the face.
+void break_face(const Model&, State&, const MeshChunk&, std::int64_t batch, int lane,
+                const geom::Mat3& stress);
+
 // A brittle face that has begun to crack carries nothing but contact from now on. The same returned.
 double let_go(const FaceBatch&, int lane, const FaceMoment&, const Joint&, FaceStateBatch&, CohesiveFace&);
 

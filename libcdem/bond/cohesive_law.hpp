@@ -143,15 +143,16 @@ CDEM_INLINE CohesiveResponse<T> cohesive_response(const SofteningLawOf<T>& law, 
 // J per area, across the plane: what the springs store, less what they stored when the crack began, which the body never did.
 // Of that, the part of w_c fades with the law's own; the rest, of pressure and friction, goes with the last of the strength, as
 // D^32: where damage takes most per D. So a face that has lost its strength stores what its contact stores, and what breaking
-// takes grows all along. A brittle face loses its strength at once; its springs keep the part of w_f until it parts.
+// takes grows all along. A brittle face loses its strength at once; its springs keep the part of w_f until it parts. One that was
+// broken by hand draws nothing (a = 0) and stores what its contact stores.
 template <class T>
 CDEM_INLINE T stored_across(const SofteningLawOf<T>& law, const CohesivePoint<T>& at,
                             const CohesiveResponse<T>& now) {
   const PartsOfStretch<T> begun = parts_of_stretch<T>(law, at.plane, at.offset);
-  const T none{}, rubbing = dot(now.contact, now.contact) / (law.kn * law.kn),
-                  bonded = dot(begun.bonded, begun.bonded), pressed = dot(begun.pressed, begun.pressed),
-                  both = dot(at.offset, at.offset) - bonded - pressed, fourth = fourth_power<T>(now.damage),
-                  late = law.softens ? fourth_power<T>(fourth * fourth) : none;
+  const T rubbing = dot(now.contact, now.contact) / (law.kn * law.kn),
+          bonded = dot(begun.bonded, begun.bonded), pressed = dot(begun.pressed, begun.pressed),
+          both = dot(at.offset, at.offset) - bonded - pressed, fourth = fourth_power<T>(now.damage),
+          late = law.softens ? fourth_power<T>(fourth * fourth) : 1.0 - now.drawn;
   return 0.5 * law.kn *
          ((1.0 - now.damage) * (dot(now.stretch, now.stretch) - now.drawn * now.drawn * bonded) +
           now.damage * rubbing - (1.0 - late) * pressed - (1.0 - (law.softens ? late : now.damage)) * both);

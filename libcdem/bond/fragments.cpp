@@ -65,6 +65,11 @@ std::vector<int> fragments_of_nodes(const Model& model, const State& state, Join
   for (const geom::Tet& tet : model.tets)
     for (int k = 1; k < 4; ++k)
       sets.unite(tet[0], tet[k]);
+  for (const RigidBody& body : model.rigid) { // broken faces part nothing within it
+    const Block& block = model.blocks[body.block];
+    for (int node = block.node_begin; node < block.node_end; ++node)
+      sets.unite(block.node_begin, node);
+  }
   for (std::size_t p = 0; p < model.points.size(); ++p) {
     const int frame = model.interfaces[model.points[p].interface].frame;
     if (by == Joins::told && frame >= 0 ? told_of(state, frame) != ToldOfBonds::all_broken

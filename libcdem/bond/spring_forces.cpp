@@ -164,12 +164,6 @@ geom::Vec3 water_force(const State& state, const BondPoint& point, std::int64_t 
   return -state.water_pressure[p] * point.area * point.normal;
 }
 
-// s, of a spring: that of its joint, and of a contact at least what the step asks for.
-double damping_of_spring(const BondWork& work, int interface, std::uint8_t mode) {
-  const double own = work.damping.empty() ? 0 : work.damping[interface];
-  return is_intact(mode) ? own : std::max(own, work.contact_damping);
-}
-
 // What the springs of a chunk share.
 struct SpringsOfChunk {
   const Model& model;
@@ -179,27 +173,29 @@ struct SpringsOfChunk {
   bool breaking, acts_otherwise, damped;
 };
 
-// Stiffness damping of a spring that holds or presses, beside its own force, N, in undeformed directions. rate: m/s,
-// of its stretch; j: m, its relative displacement.
+// Relative displacement at which the contact in a spring carries nothing, m.
+geom::Vec3 contact_offset(const State& state, std::int64_t p) {
+  return state.bond_slip.empty() ? state.bond_offset[p] : state.bond_offset[p] + state.bond_slip[p];
+}
+
+// Stiffness damping of a spring that holds or presses, beside its own force, N, in undeformed directions. A bond has that
+// of its joint, a contact at least what the step asks for, and a damaged bond is both, a contact with its share D. rate:
+// m/s, of its stretch; j: m, its relative displacement; offset_before: contact_offset before this step.
 template <bool special>
 geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3& rate, const geom::Vec3& j,
                          const geom::Vec3& offset_before) {
   const BondPoint& point = c.model.points[p];
   const BondWork& work = c.work;
-  const std::uint8_t mode = c.state.bond_mode[p];
-  const double beta = damping_of_spring(work, point.interface, mode), kn = point.kn_area, ks = point.ks_area;
+  const double of_joint = work.damping.empty() ? 0 : work.damping[point.interface],
+               beta = std::max(of_joint, work.contact_damping), kn = point.kn_area, ks = point.ks_area;
   const Triple<double> n = triple(point.normal);
-  if (is_intact(mode)) {
-    const SpringStretch<double> of_rate = parts_of(triple(rate), n);
-    return vec(spring_force<double>(beta * kn, beta * ks, n, of_rate, {1, 1}));
-  }
   const auto viscous = [&](double normal_force, double left, bool slides) {
     const bool presses = normal_force < 0;
     return vec(viscous_of_contact<double>(beta, kn, ks, n, triple(rate), -normal_force, left, presses,
                                           presses && !slides));
   };
   if constexpr (special)
-    if (!work.laws.empty() && work.laws[point.interface].law) {
+    if (!is_intact(c.state.bond_mode[p]) && !work.laws.empty() && work.laws[point.interface].law) {
       const InterfaceLaw& own = work.laws[point.interface];
       const geom::Vec3& force = work.spring_force[p];
       const double normal_force = force.dot(point.normal),
@@ -209,11 +205,19 @@ geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Ve
       return viscous(normal_force, std::max(0.0, point.area * strength - shear),
                      c.state.bond_offset[p] != offset_before);
     }
+  const auto of_bond = [&](double share) {
+    const double part = share * of_joint;
+    return vec(spring_force<double>(part * kn, part * ks, n, parts_of(triple(rate), n), {1, 1}));
+  };
+  const double broken = broken_share(c.state, p);
+  if (broken == 0)
+    return of_bond(1);
   const SpringStretch<double> parts = parts_of(triple(geom::Vec3(j - offset_before)), n);
   const double tan = work.strength[point.interface].tan_friction,
                length = root(dot(parts.shear, parts.shear)), normal_force = kn * parts.open;
-  return viscous(normal_force, friction_left<double>(ks, tan, normal_force, length),
-                 held_by_contact<double>(kn, ks, tan, parts.open, length).shear < 1);
+  const geom::Vec3 of_contact = viscous(normal_force, friction_left<double>(ks, tan, normal_force, length),
+                                        held_by_contact<double>(kn, ks, tan, parts.open, length).shear < 1);
+  return broken == 1 ? of_contact : of_bond(1 - broken) + broken * of_contact;
 }
 
 // One spring of any kind; rotation: of its interface.
@@ -238,7 +242,7 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
     return;
   }
   const Rotation<double> turn{triple(rotation.col(0)), triple(rotation.col(1)), triple(rotation.col(2))};
-  const geom::Vec3 offset_before = state.bond_offset[p],
+  const geom::Vec3 offset_before = contact_offset(state, p),
                    j = vec(turned_back(turn, triple(jump_at(c.model, p, u))));
   update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking);
   geom::Vec3 acting = work.spring_force[p] + water_force(state, point, p);
@@ -358,6 +362,10 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
 
 geom::Vec3 jump(const Model& model, const std::vector<Node>& displacement, int point) {
   return jump_at(model, point, displacement.data());
+}
+
+double broken_share(const State& state, std::int64_t p) {
+  return !is_intact(state.bond_mode[p]) ? 1 : state.bond_damage.empty() ? 0 : state.bond_damage[p];
 }
 
 bool released(const State& state, const Interface& interface) {

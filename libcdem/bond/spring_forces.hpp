@@ -28,6 +28,9 @@ void start_spring_forces(const Model&, const State&, BondWork&);
 // the relative displacement plus the undeformed distance of the two.
 geom::Vec3 jump(const Model&, const std::vector<Node>& displacement, int point);
 
+// Part of a spring that is a contact: 1 where it was never bonded or has broken, D of a bond that softens, else 0.
+double broken_share(const State&, std::int64_t point);
+
 // The interface has been handed over to contact: its springs carry nothing any more.
 bool released(const State&, const Interface&);
 

@@ -1,6 +1,7 @@
 #include "libcdem/fracture/notch.hpp"
 
-#include "libcdem/bond/face_frame.hpp"
+#include "libcdem/bond/cohesive_faces.hpp"
+#include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/model/build/add_meshes.hpp"
 #include "libgeom/mesh/boundary.hpp"
@@ -62,21 +63,19 @@ std::int64_t notch(Model& model, State& state, const Selects& at) {
   }
   std::int64_t count = 0;
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    FaceStateBatch& face = state.faces[batch];
+    const FaceStateBatch& face = state.faces[batch];
     if (!model.bodies[model.blocks[chunk.block].body].bonding.is_cohesive() ||
         face.stage[lane] == FaceStage::parted || face.stage[lane] == FaceStage::separated)
       return;
     for (int point = 0; point < 3; ++point)
       if (!at(face_point(model, chunk, {batch, point, lane}), chunk.block))
         return;
-    CohesiveFace& cohesive = state.cohesive[batch * lanes + lane];
-    cohesive = {};
-    cohesive.plane[2] = 1;
-    cohesive.damage = {1, 1, 1};
-    face.stage[lane] = FaceStage::cracking;
-    face.preloaded[lane] = 0;
-    for (auto& mode : face.mode)
-      mode[lane] = static_cast<std::uint8_t>(BondMode::contact);
+    const FaceTets& tets = model.mesh.face_tets[batch * lanes + lane];
+    geom::Mat3 stress = geom::Mat3::Zero(); // on a face that cracks the stress of its tets does not act
+    if (holds(face.stage[lane]))
+      stress = 0.5 * (matrix(mesh_stress(model, state, tets.tet_a)) +
+                      matrix(mesh_stress(model, state, tets.tet_b)));
+    break_face(model, state, chunk, batch, lane, stress);
     count += 3;
   });
   return count;

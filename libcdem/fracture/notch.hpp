@@ -1,5 +1,5 @@
 // A notch in a cohesive body, made by hand along faces of its mesh: their nodes are freed, and the faces are cracks that
-// carry nothing but contact.
+// carry nothing but contact. Under pressure they carry that pressure, and the shear that friction holds, from the beginning.
 #pragma once
 
 #include "libcdem/state/state.hpp"

@@ -1,5 +1,6 @@
 #include "libcdem/load/initial_stress.hpp"
 
+#include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/rigid_motion.hpp"
@@ -38,20 +39,32 @@ geom::Vec3 centre_of(const Model& model, int tet) {
   return sum / 4;
 }
 
-// The faces of a bonded mesh have springs that would not carry the stress; those of a cohesive body have none until it
-// begins to crack.
+// The springs of a bonded mesh would not carry the stress.
 void require_carries(const Model& model, const Block& block, const Selection& on) {
   const Bonding& bonding = model.bodies[block.body].bonding;
-  if (block.convex() || bonding.none())
-    return;
-  if (!bonding.is_cohesive())
+  if (!block.convex() && !bonding.none() && !bonding.is_cohesive())
     throw geom::InputError(
         "on", on.text, "blocks, meshes without bonds, or cohesive meshes",
         "the springs of a mesh cannot be given an initial stress; bonds = \"cohesive\" can");
-  for (int node = block.node_begin; node < block.node_end; ++node)
-    if (model.mesh.freed[node - model.mesh.first_node] != 0)
-      throw geom::InputError("on", on.text, "cohesive meshes that have not begun to crack",
-                             "give the initial stress before the first stage");
+}
+
+// A face of a cohesive body that holds takes the stress of its tets. One that is broken takes what pressure and friction hold of
+// it. A crack that goes on is at its strength and takes none.
+void add_to_faces(const Model& model, State& state, const std::vector<char>& selected,
+                  const InitialStress& field, double top) {
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (selected[chunk.block] == 0 || holds(state.faces[batch].stage[lane]))
+      return;
+    const std::int64_t number = batch * lanes + lane;
+    if (state.faces[batch].stage[lane] != FaceStage::cracking ||
+        state.cohesive[number].damage != std::array{1.0, 1.0, 1.0})
+      throw geom::InputError(
+          "on", field.on.text, "cohesive bodies without open or growing cracks",
+          "give the initial stress before the first stage; model:break_bonds may come before it");
+    const FaceTets& tets = model.mesh.face_tets[number];
+    const auto stress = [&](int tet) { return matrix(stress_at(field, top, centre_of(model, tet))); };
+    break_face(model, state, chunk, batch, lane, 0.5 * (stress(tets.tet_a) + stress(tets.tet_b)));
+  });
 }
 
 void add_to_block(const Model& model, State& state, const Block& block, const InitialStress& field,
@@ -116,6 +129,7 @@ void add_initial_stress(const Model& model, State& state, const InitialStress& f
   for (std::size_t b = 0; b < selected.size(); ++b)
     if (selected[b] != 0)
       add_to_block(model, state, model.blocks[b], field, top);
+  add_to_faces(model, state, selected, field, top);
   for (std::size_t p = 0; p < model.points.size(); ++p) {
     const Interface& interface = model.interfaces[model.points[p].interface];
     // The traction is the mean of the stress on both sides, so that layers that are given one by one load the faces

@@ -1,14 +1,15 @@
 #include "libcdem/procedure/run.hpp"
 
 #include "libcdem/bond/contact_damping.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/integrate/viscous_forces.hpp"
-#include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/procedure/scaled_stage.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libcdem/step/step.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -121,13 +122,16 @@ private:
   std::int64_t given_, first_ = 0, steps_ = 0;
 };
 
-// Some springs of interfaces that turn are contacts: never bonded, or broken.
+// Some springs of interfaces that turn are contacts, if only with the share that is broken.
 bool any_dry_joint(const Model& model, const State& state) {
-  return std::any_of(model.interfaces.begin(), model.interfaces.end(), [&](const Interface& interface) {
-    const auto mode = state.bond_mode.begin();
-    return interface.frame >= 0 && state.released[interface.frame] == 0 &&
-           !std::all_of(mode + interface.point_begin, mode + interface.point_end, is_intact);
-  });
+  const auto is_dry = [&](const Interface& interface) {
+    int p = interface.point_begin;
+    while (p < interface.point_end && broken_share(state, p) == 0)
+      ++p;
+    return interface.frame >= 0 && !released(state, interface) && p < interface.point_end;
+  };
+  const bool any = std::any_of(model.interfaces.begin(), model.interfaces.end(), is_dry);
+  return state.bond_damage.empty() ? any : ranks().any(any); // a rank knows the damage of its own springs
 }
 
 class Run final : public Procedure {

@@ -283,3 +283,63 @@ TEST_CASE("a fracture energy below what the springs store at their strength is r
   CHECK_THROWS_WITH(two_slabs(joint, 1), Catch::Matchers::Contains("fracture_energy_1 = 0.001") &&
                                              Catch::Matchers::Contains("at least 0.0167 J/m2"));
 }
+
+namespace {
+
+// Two blocks that move far, on each other, tied by a joint that softens. Both ends are held; the upper one moves.
+struct TiedBlocks {
+  explicit TiedBlocks(const Vec3& size) : s(spec(size), 1, nullptr), area(size.x() * size.y()) {
+    s.fix(held("z-", all_axes));
+    s.fix(held("z+", all_axes));
+  }
+  // The upper end goes on by so much, m, at the usual step. Returns its force over the area, Pa.
+  Vec3 move(const Vec3& way, double speed) {
+    Fix lead = held("z+", all_axes);
+    lead.displacement.reset();
+    lead.velocity = speed * way.normalized();
+    s.fix(lead);
+    RunOptions o;
+    o.duration = way.norm() / speed;
+    s.run(o);
+    return s.reaction(Selection::side("z+")) / area;
+  }
+  static ModelSpec spec(const Vec3& size) {
+    Elastic straight = elastic_rock();
+    straight.poissons_ratio = 0;
+    ModelSpec spec;
+    spec.bodies = {{"blocks", geom::grid(size, {1, 1, 2}), straight, softening_joint(Softening::linear)}};
+    return spec;
+  }
+  Simulation s;
+  double area; // m2
+};
+
+} // namespace
+
+TEST_CASE("a softening bond between blocks that move far closes and opens again at the usual step",
+          "[softening][dry_joints]") {
+  TiedBlocks blocks({0.1, 0.1, 0.2});
+  const double speed = 0.01; // m/s
+  const Vec3 opened(0, 0, 5e-5), pressed(0, 0, -2e-5);
+  const double held = blocks.move(opened, speed).z(), breaking = blocks.s.energy().breaking;
+  REQUIRE(blocks.s.counts().damaged == blocks.s.counts().bonds);
+  REQUIRE(held > 0);
+  const Elastic rock = elastic_rock();
+  const double wave = 2 * speed *
+                      std::sqrt(rock.youngs_modulus * rock.density), // Pa, of the end that turns back
+      stiffness = rock.youngs_modulus / 0.2;                         // Pa/m, of the blocks
+  CHECK(blocks.move(pressed - opened, speed).z() == Approx(stiffness * pressed.z()).margin(2 * wave));
+  CHECK(blocks.move(0.95 * opened - pressed, speed).z() == Approx(0.95 * held).margin(wave));
+  CHECK(blocks.s.energy().breaking == Approx(breaking).epsilon(0.03));
+  CHECK(blocks.s.energy().kinetic < 0.01 * breaking);
+  CHECK(blocks.s.energy().balance_error() < 1e-3);
+}
+
+TEST_CASE("a softening bond between blocks that move far takes G_II as it slips at the usual step",
+          "[softening][dry_joints]") {
+  TiedBlocks blocks({0.2, 0.2, 0.1});
+  blocks.move({3e-4, 0, 0}, 0.05);
+  CHECK(blocks.s.counts().broken_shear == blocks.s.counts().bonds);
+  CHECK(blocks.s.energy().breaking == Approx(200 * blocks.area).epsilon(0.02));
+  CHECK(blocks.s.energy().balance_error() < 1e-3);
+}

@@ -129,3 +129,50 @@ TEST_CASE("begin cracks: a notch along faces of a cohesive body carries nothing"
   CHECK_THROWS_WITH(s.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0.11, 0, 0}, {1, 0, 0}))),
                     Catch::Contains("of a cohesive body whole faces"));
 }
+
+TEST_CASE("begin cracks: a notch closed by pressure, with shear that friction holds, disturbs no balance",
+          "[cohesive][breaking][initial_stress]") {
+  const auto softening = GENERATE(cdem::Softening::none, cdem::Softening::linear);
+  const bool stress_first = GENERATE(true, false);
+  const double pressure = 5e6, shear = GENERATE(1e6, 3e6); // Pa; friction of 30 degrees holds 2.9e6
+  const std::array<double, 6> stress{-pressure, -3e6, -4e6, shear, 0, 0};
+  cdem::ModelSpec spec;
+  spec.bodies = {concrete_body(geom::box_mesh({0.2, 0.1, 0.1}, {4, 2, 2}), softening)};
+  cdem::Simulation s(spec, 1, nullptr);
+  for (const cdem::Traction& traction : on_six_sides(symmetric(-pressure, -3e6, -4e6, shear, 0, 0)))
+    s.traction(traction);
+  const auto notch = [&] {
+    s.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0.1, 0, 0}, {1, 0, 0})));
+  };
+  if (!stress_first)
+    notch();
+  s.initial_stress(cdem::Selection::everything(), stress);
+  if (stress_first)
+    notch();
+  CHECK(s.energy().balance_error() < 1e-12);
+  cdem::RunOptions options;
+  options.steps = 100;
+  s.run(options);
+  const double strained = 0.2 * pressure / concrete().youngs_modulus; // m, by which the body is compressed
+  INFO("moved " << s.max("displacement.magnitude").value << " of " << strained);
+  if (shear < pressure * std::tan(30 * degree)) {
+    CHECK(s.max("displacement.magnitude").value < 1e-9 * strained);
+    CHECK(std::abs(s.energy().breaking) < 1e-12);
+  } else {
+    CHECK(s.max("displacement.magnitude").value > 0.1 * strained); // it slides
+  }
+  CHECK(s.energy().balance_error() < 3e-3);
+}
+
+TEST_CASE("begin cracks: a notch in a body under tension is free of traction", "[cohesive][breaking]") {
+  cdem::ModelSpec spec;
+  spec.bodies = {concrete_body(geom::box_mesh({0.2, 0.1, 0.1}, {4, 2, 2}))};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("x-")));
+  s.initial_stress(cdem::Selection::everything(), {1e6, 0, 0, 0, 0, 0});
+  s.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0.1, 0, 0}, {1, 0, 0})));
+  cdem::RelaxOptions options;
+  options.residual = 1e-3;
+  s.relax(options);
+  CHECK(std::abs(s.reaction(cdem::Selection::side("x-")).x()) < 0.01 * 1e6 * 0.01);
+}

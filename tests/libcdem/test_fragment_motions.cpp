@@ -14,6 +14,11 @@ using geom::Vec3;
 
 namespace {
 
+struct Warnings final : cdem::Observer {
+  std::vector<std::string> lines;
+  void warning(const std::string& line) override { lines.push_back(line); }
+};
+
 std::vector<cdem::FragmentMotion> motions(const System& s) {
   return cdem::fragment_motions(s.model, s.state, cdem::resolve(s.model, s.state, s.conditions));
 }
@@ -150,6 +155,32 @@ TEST_CASE("fragments: rigid bodies count with their own mass and inertia", "[fra
   CHECK(f.kinetic == Approx(s.energy().kinetic));
   CHECK(std::abs(f.rest()) < 1e-9 * f.kinetic);
   CHECK((f.angular_momentum - moments.cwiseProduct(spin)).norm() < 0.05 * f.angular_momentum.norm());
+}
+
+TEST_CASE("fragments: a broken body that turns rigid is one until it is deformable again",
+          "[fragments][rigid][bonds]") {
+  cdem::Bonding everywhere;
+  everywhere.everywhere = true;
+  everywhere.kind = GENERATE(cdem::BondKind::springs, cdem::BondKind::cohesive);
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("box", geom::box_mesh({0.6, 0.15, 0.15}, {4, 1, 1}), everywhere)};
+  const auto listener = std::make_shared<Warnings>();
+  cdem::Simulation s(spec, 1, listener);
+  s.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0.3, 0, 0}, {1, 0, 0})));
+  s.initial_velocity(cdem::Selection::everything(), {1, 0, 0}, {0, 0, 10});
+  REQUIRE(s.fragments().size() == 2);
+  REQUIRE(s.fragment_motions().size() == 2);
+  s.make_rigid(cdem::Selection::everything());
+  REQUIRE(listener->lines.size() == 1);
+  CHECK_THAT(listener->lines[0], Catch::Contains("broken into 2 pieces"));
+  CHECK(s.fragments().size() == 1);
+  const auto list = s.fragment_motions();
+  REQUIRE(list.size() == 1);
+  CHECK(list[0].mass == Approx(rock().density * 0.6 * 0.15 * 0.15));
+  CHECK(list[0].momentum.x() == Approx(list[0].mass));
+  CHECK(list[0].kinetic == Approx(s.energy().kinetic));
+  s.make_deformable(cdem::Selection::everything());
+  CHECK(s.fragment_motions().size() == 2);
 }
 
 TEST_CASE("fragments: the mass that passes grows with the size to all of it", "[fragments]") {

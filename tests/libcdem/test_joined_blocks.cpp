@@ -159,6 +159,29 @@ TEST_CASE("joined blocks: glued faces hold, named joints have their own strength
   CHECK(area.rbegin()->second == Approx(std::sqrt(1 + 0.04)));
 }
 
+TEST_CASE("joined blocks: a cut or a body whose joint is glued never breaks", "[joined]") {
+  geom::PlaneCutOptions cut;
+  cut.name = "seam";
+  cdem::BodySpec spec = body("rock", geom::cut_by_plane(geom::grid({1, 1, 2}, {1, 1, 2}),
+                                                        geom::Plane::through({0, 0, 0.6}, {0, 0.2, 1}), cut));
+  spec.element = cdem::Element::finite_volume;
+  spec.bonding.kind = cdem::BondKind::cohesive;
+  spec.bonding.stiffness_ratio = 1;
+  (GENERATE(true, false) ? spec.joint : spec.set_joints["seam"]) = cdem::glued_joint();
+  const bool all = spec.joint.glued;
+  cdem::join_blocks(spec);
+  System s(build({spec}));
+  free_all(s);
+  double held = 0; // m2
+  each_face(s.model.mesh, [&](const cdem::MeshChunk&, std::int64_t batch, int lane) {
+    const double strength = s.model.mesh.strength.empty()
+                                ? s.model.bodies[0].joint.tensile_strength
+                                : s.model.mesh.strength[batch].tensile_strength[lane];
+    held += strength > 1e12 ? 3 * s.model.mesh.faces[batch].area[lane] : 0;
+  });
+  CHECK(held == Approx(std::sqrt(1 + 0.04) + (all ? 1 : 0)));
+}
+
 TEST_CASE("joined blocks: what cannot be one mesh is refused with the reason", "[joined][input]") {
   const auto refused = [](const auto& change, const char* says) {
     cdem::BodySpec spec = body("rock", wall());

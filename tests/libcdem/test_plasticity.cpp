@@ -352,6 +352,17 @@ TEST_CASE("a plastic state is saved and goes on with the same bits", "[plasticit
   CHECK(other.state_hash() == s.state_hash());
 }
 
+TEST_CASE("plasticity and cohesive faces in one body are refused with what takes both",
+          "[plasticity][input]") {
+  cdem::Bonding cohesive;
+  cohesive.kind = cdem::BondKind::cohesive;
+  cohesive.everywhere = true;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("rock", geom::box_mesh({1, 1, 1}, {1, 1, 1}), cohesive)};
+  spec.bodies[0].plasticity.laws = {soil(30, 0)};
+  CHECK_THROWS_WITH(cdem::Simulation(spec, 1, nullptr), Catch::Matchers::Contains("bonds = \"springs\""));
+}
+
 TEST_CASE("a law of plasticity says what is wrong with it", "[plasticity]") {
   Plasticity law = soil(30, 31);
   CHECK_THROWS_WITH(cdem::validate(law), Catch::Matchers::Contains("dilation_angle = 31"));

@@ -418,7 +418,9 @@ void bind_conditions(Module& m) {
         .doc("only faces that are selected with all their points, so that faces that meet the notch at its "
              "tip stay bonded");
   };
-  model.add("break_bonds", "Breaks bonds before anything is loaded (a notch): those whose point is selected.",
+  model.add("break_bonds",
+            "Breaks bonds (a notch): those whose point is selected. They are contacts from then on, which "
+            "keep the pressure that they carry and the shear that its friction holds.",
             {on(), whole_faces()}, break_bonds, "integer", "how many");
   model.add("unbond", "The old name of model:break_bonds; it warns.", {on(), whole_faces()}, unbond,
             "integer", "how many");
