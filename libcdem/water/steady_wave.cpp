@@ -99,8 +99,14 @@ double linear_wave_number(double period, double depth, double gravity, double cu
     return gravity * k * (1 - e) / (1 + e) - (own > 0 ? own * own : 0);
   };
   double low = 0, high = omega * omega / gravity;
-  while (excess(high) < 0)
-    high *= 2;
+  // Against a current the excess is positive for some wave numbers only, and for none where the current stops the waves.
+  while (excess(high) < 0) {
+    high *= current < 0 ? 1.05 : 2;
+    if (current < 0 && high > gravity / (current * current))
+      throw geom::InputError("current", fmt::format("{:g}", current),
+                             fmt::format("weaker against waves of {:g} s", period),
+                             "these cannot travel against it");
+  }
   for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
     const double middle = 0.5 * (low + high);
     (excess(middle) < 0 ? low : high) = middle;

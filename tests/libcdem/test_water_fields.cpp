@@ -138,4 +138,12 @@ TEST_CASE("waves that cannot be are refused in one line", "[water]") {
   given = wave_of(cdem::WaveTheory::stokes, 0.1);
   given.length = 20;
   CHECK_THROWS_WITH(cdem::WaveField(given), Catch::Contains("stream_function"));
+  given = wave_of(cdem::WaveTheory::stream_function, 0.01);
+  given.length.reset();
+  given.period = 1;
+  given.current = -0.6; // waves of 1 s and 1.6 m/s travel against 0.39 m/s at most
+  CHECK_THROWS_WITH(cdem::WaveField(given),
+                    Catch::Contains("current = -0.6: must be weaker against waves of 1 s"));
+  given.current = -0.3;
+  CHECK_NOTHROW(cdem::WaveField(given));
 }
