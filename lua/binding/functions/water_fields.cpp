@@ -74,8 +74,8 @@ const Record<SlopeGiven> slope_given{
       &SlopeGiven::bed},
      {object_or_function("waves", "Water", "(time: number): number")
           .required()
-          .doc("that enter over the first point: waves of the same level, or the height over still water "
-               "(m)")},
+          .doc("that enter over the first point: waves of its level and depth, or the height over still "
+               "water (m)")},
      {number("duration", "s").above(0).required().doc("a run may not go on beyond it"),
       &SlopeGiven::duration},
      {level_field(), &SlopeGiven::level},
@@ -160,10 +160,26 @@ Value sea(Session&, Object*, const Arguments& a) {
                  "an irregular sea of " + number_text(given.significant_height) + " m");
 }
 
+// Waves of another level or depth would enter with the flow and the celerity of other water.
+void require_same_bed(const WaterField& waves, const SlopeGiven& slope) {
+  const std::optional<FlatBed> bed = waves.flat_bed();
+  if (!bed)
+    return;
+  const double depth = slope.level - slope.bed[0][1], rounding = 1e-6 * std::abs(depth);
+  if (std::abs(bed->level - slope.level) > rounding || std::abs(bed->level - bed->z - depth) > rounding)
+    throw InputError("waves",
+                     number_text(bed->level - bed->z) +
+                         " m deep with still water at z = " + number_text(bed->level) + " m",
+                     "those of the first point of the bed, " + number_text(depth) +
+                         " m and z = " + number_text(slope.level) + " m",
+                     "give cdem.water.wave this depth and level, or the slope a bed as deep");
+}
+
 // The waves that enter over the foot of the slope, grown from nothing over the ramp.
 std::function<double(double)> entering(const Arguments& a, const SlopeGiven& slope) {
   std::function<double(double)> height;
   if (const auto waves = a.object<WaterObject>("waves")) {
+    require_same_bed(*waves->field, slope);
     const geom::Vec3 along = geom::Vec3(slope.direction.x(), slope.direction.y(), 0).normalized();
     geom::Vec3 foot = slope.origin + slope.bed[0][0] * along;
     foot.z() = slope.level;
@@ -307,7 +323,7 @@ void bind_water_fields(Module& m) {
   m.add("water.slope",
         "Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along "
         "the bed and the free surface, hydrostatic pressure. A breaking wave is a bore, without jet and "
-        "without the pressure of its impact.",
+        "without the pressure of its impact. A body beyond the ends of the bed ends the run with an error.",
         slope_given.fields(), slope_water, "cdem.Water");
   m.add(
       "water.file",
