@@ -204,6 +204,35 @@ TEST_CASE("a body sinks with its weight less buoyancy over its mass and the adde
   CHECK(cdem::energy(s.model, s.state).balance_error() < 1e-3);
 }
 
+TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][flow]") {
+  geom::TetMesh full = geom::box_mesh({1.5, 1.5, 1.5}, {3, 3, 3}), hollow = full;
+  hollow.tets.clear();
+  for (const geom::Tet& tet : full.tets) {
+    Vec3 middle = Vec3::Zero();
+    for (const int node : tet)
+      middle += 0.25 * full.nodes[node];
+    if (((middle - Vec3(0.75, 0.75, 0.75)).array().abs() > 0.25).any())
+      hollow.tets.push_back(tet);
+  }
+  const auto force = [](const geom::TetMesh& mesh, std::shared_ptr<const cdem::WaterField> water) {
+    System s(build({meshed("unit", mesh)}));
+    s.conditions.flows = {in_water(std::move(water))};
+    s.state.time = 1;
+    return wrench(s).force;
+  };
+  const double volume = 1.5 * 1.5 * 1.5;
+  CHECK((force(hollow, cdem::uniform_water(still(3))) - volume * weight * Vec3::UnitZ()).norm() <
+        1e-9 * weight);
+  const Vec3 u(2, 0, 0);
+  CHECK((force(hollow, stream(u)) - force(full, stream(u))).norm() < 1e-9 * density);
+  cdem::Flow flow;
+  flow.direction = Vec3::UnitX();
+  flow.velocity = [](double) { return 2; };
+  System s(build({meshed("unit", hollow)}));
+  s.conditions.flows = {flow};
+  CHECK(wrench(s).force.x() == Approx(0.5 * density * 4 * 1.5 * 1.5));
+}
+
 TEST_CASE("a run in waves that is left and goes on ends in the same bits", "[water][resume]") {
   cdem::WaveGiven given;
   given.height = 0.4;
