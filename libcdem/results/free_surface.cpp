@@ -71,8 +71,10 @@ private:
     return {sheet_.origin[0] + column * sheet_.cell[0], sheet_.origin[1] + row * sheet_.cell[1], top_};
   }
   int add(const Vec3& x, const WaterPoint& water) {
-    sheet_.points.emplace_back(x.x(), x.y(), water.surface);
-    sheet_.velocity.push_back(water.velocity);
+    const Vec3& surface = sheet_.points.emplace_back(x.x(), x.y(), water.surface);
+    // Over a model that lies below the surface, the field was asked deeper.
+    const bool deeper = x.z() < water.surface;
+    sheet_.velocity.push_back(deeper ? asked(water_, surface, time_).velocity : water.velocity);
     return static_cast<int>(sheet_.points.size()) - 1;
   }
 
