@@ -1,6 +1,7 @@
 #include "libcdem/results/free_surface.hpp"
 
 #include "libcdem/load/water_table.hpp"
+#include "libcdem/water/plain_water.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -211,6 +212,7 @@ public:
     return point;
   }
   double density() const override { return 0; }
+  double gravity() const override { return standard_water_gravity; }
   bool has_dynamic_pressure() const override { return false; }
   bool has_pressure() const override { return false; }
 

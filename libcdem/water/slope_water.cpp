@@ -163,12 +163,14 @@ WaterPoint SlopeWater::at(const geom::Vec3& place, double time) const {
   const Column al = column(i, s - d), ar = column(i, s + d), bl = column(i + 1, s - d),
                br = column(i + 1, s + d);
   const double bed_slope = (ar.bed - al.bed) / (2 * d);
-  double w_top = u * bed_slope, along = 0;
+  double w_top = u * bed_slope, along = 0, surface_slope = 0;
   if (a.wet && b.wet && al.wet && ar.wet && bl.wet && br.wet) {
-    const double surface_slope = (mix(ar.surface, br.surface) - mix(al.surface, bl.surface)) / (2 * d);
+    surface_slope = (mix(ar.surface, br.surface) - mix(al.surface, bl.surface)) / (2 * d);
     w_top = (b.surface - a.surface) / frame + u * surface_slope;
     along = (b.u - a.u) / frame + u * (mix(ar.u, br.u) - mix(al.u, bl.u)) / (2 * d);
   }
+  point.surface_slope = surface_slope * along_;
+  point.pressure_gradient = given_.density * g * (point.surface_slope - geom::Vec3::UnitZ());
   const double height = std::clamp(surface > bed ? (place.z() - bed) / (surface - bed) : 0.0, 0.0, 1.0);
   point.velocity = u * along_ + (u * bed_slope + height * (w_top - u * bed_slope)) * geom::Vec3::UnitZ();
   point.acceleration = along * (along_ + bed_slope * (1 - height) * geom::Vec3::UnitZ());

@@ -30,6 +30,7 @@ public:
   // Throws geom::InputError beyond both ends of the bed, and after the duration.
   WaterPoint at(const geom::Vec3& place, double time) const override;
   double density() const override { return given_.density; }
+  double gravity() const override { return given_.gravity; }
   bool has_dynamic_pressure() const override { return true; }
   bool has_pressure() const override { return true; }
 
