@@ -112,7 +112,8 @@ const Record<WaterArrays> water_arrays{
       &WaterArrays::cell},
      {choice("same_along", {"x", "y", "z"})
           .doc("the water is the same all along this axis, as in a flume of one cell")},
-     {vec3("shift", "m").standard().doc("is added to the coordinates"), &WaterArrays::shift}}};
+     {vec3("shift", "m").standard().doc("is added to the coordinates"), &WaterArrays::shift},
+     {density_of_water(), &WaterArrays::density}}};
 
 const Record<UniformWater> uniform_record{
     {{vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
@@ -252,7 +253,6 @@ Value file_water(Session& session, Object*, const Arguments& a) {
     throw InputError("level: goes without fraction, whose surface is its own");
   WaterRecord record = read_water(files, wish);
   record.level = a.optional_number("level");
-  record.density = a.number("density");
   const auto made = std::make_shared<RecordedWater>(std::move(record));
   const geom::Box box = made->box();
   std::string line = "cdem.water.file: " + geom::counted(files.paths.size(), "file");
@@ -306,7 +306,8 @@ void bind_water_fields(Module& m) {
   m.add(
       "water.field",
       "Water described by functions of place and time, which are called at every node of a unit. Without a "
-      "function for the pressure, the pressure is hydrostatic below the surface. Without a function for the "
+      "function for the pressure, the pressure is hydrostatic below the surface, and what accelerated water "
+      "adds to it follows from the acceleration. Without a function for the "
       "acceleration, the acceleration follows from the velocity.",
       function_record.fields(), field, "cdem.Water");
   m.add("water.wave",
@@ -338,8 +339,7 @@ void bind_water_fields(Module& m) {
           water_arrays.fields() +
           std::vector<Field>{number("time_shift", "s")
                                  .standard(0.0)
-                                 .doc("is added to the times, such as the model's time at the start"),
-                             density_of_water()},
+                                 .doc("is added to the times, such as the model's time at the start")},
       file_water, "cdem.Water");
 }
 
