@@ -68,7 +68,7 @@ public:
   }
   double density() const override { return given_.density; }
   double gravity() const override { return given_.gravity; }
-  bool has_dynamic_pressure() const override { return has_pressure(); }
+  bool has_dynamic_pressure() const override { return static_cast<bool>(given_.pressure); }
   bool has_pressure() const override { return given_.pressure || given_.surface; }
 
 private:

@@ -39,7 +39,7 @@ public:
   WaterPoint at(const geom::Vec3& place, double time) const override;
   double density() const override { return record_.density; }
   double gravity() const override { return record_.gravity; }
-  bool has_dynamic_pressure() const override { return has_pressure(); }
+  bool has_dynamic_pressure() const override { return with_pressure_; }
   bool has_pressure() const override { return with_pressure_ || with_surface_; }
 
   geom::Box box() const; // m, where it is known; infinite along an axis of one point
