@@ -8,6 +8,7 @@
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/water_forces.hpp"
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -260,14 +261,26 @@ void add_relative_flow(const ResolvedFlow& flow, double time, const std::vector<
   }
 }
 
-void require_buoyancy_once(const Conditions& conditions) {
-  if (!conditions.gravity || conditions.gravity->water_density == 0)
+// Bodies and the water that carries them have one weight.
+void require_one_gravity(const Conditions& conditions, double time) {
+  if (!conditions.gravity)
     return;
-  for (const Flow& flow : conditions.flows)
-    if (flow.water && flow.water->has_pressure())
-      throw geom::InputError("gravity: water_density", fmt::format("{:g}", conditions.gravity->water_density),
+  const Gravity& gravity = *conditions.gravity;
+  constexpr double rounded = 5e-3; // 9.8 for 9.81
+  for (const Flow& flow : conditions.flows) {
+    if (!flow.water || !flow.water->has_pressure())
+      continue;
+    if (gravity.water_density != 0)
+      throw geom::InputError("gravity: water_density", fmt::format("{:g}", gravity.water_density),
                              "left out beside a flow whose water has a pressure",
                              "that pressure is the buoyancy already");
+    const double g = flow.water->gravity();
+    const geom::Vec3 given = gravity.turning ? gravity.turning(time) : gravity.acceleration;
+    if ((given + g * geom::Vec3::UnitZ()).norm() > rounded * g)
+      throw geom::InputError("gravity", geom::text(given),
+                             fmt::format("(0, 0, -{:g}) m/s2, the gravity of the water of a flow", g),
+                             "give the water the same `gravity`; water stands level in z");
+  }
 }
 
 } // namespace
@@ -296,7 +309,7 @@ void refresh_flows(const Model& model, const State& state, ResolvedConditions& r
 }
 
 ResolvedConditions resolve(const Model& model, const State& state, const Conditions& conditions) {
-  require_buoyancy_once(conditions);
+  require_one_gravity(conditions, state.time);
   ResolvedConditions r;
   const std::size_t n = model.node_position.size();
   HeldNodes held;

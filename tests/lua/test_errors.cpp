@@ -145,7 +145,7 @@ TEST_CASE("a check tries the colours of joints and sections", "[lua]") {
   CHECK_THAT(checked("colour = 'slip'"), Contains("colour = \"slip\"") && Contains("add joints = true"));
 }
 
-TEST_CASE("waves enter a slope at its own level and depth", "[lua][water]") {
+TEST_CASE("waves enter a slope at its own level and depth, and weigh as the model does", "[lua][water]") {
   const auto slope = [](const std::string& waves, const std::string& more) {
     return head + "local w = cdem.water." + waves +
            "\ncdem.water.slope{ bed = { {0, -4}, {10, -4}, {30, 6} }, " + "waves = w, duration = 2" + more +
@@ -160,4 +160,12 @@ TEST_CASE("waves enter a slope at its own level and depth", "[lua][water]") {
   CHECK_THAT(error_of(slope("sea{ significant_height = 0.2, peak_period = 6, depth = 9 }", "")),
              Contains("waves = 9 m deep"));
   CHECK(error_of(slope(wave + "1 }", ", level = 1")) != ""); // 5 m deep then
+  const auto weighed = [](const std::string& water) {
+    return error_of(column() + "model:gravity{ vector = {0, 0, -3.7} }\n" +
+                    "model:flow{ water = cdem.water.uniform{ velocity = {0, 0, 0}, level = 1" + water +
+                    " } }\nmodel:run{ steps = 2 }");
+  };
+  CHECK(weighed(", gravity = 3.7").empty());
+  CHECK_THAT(weighed(""), Contains("gravity = {0, 0, -3.7}: must be (0, 0, -9.81) m/s2") &&
+                              Contains("give the water the same `gravity`"));
 }

@@ -31,6 +31,9 @@ std::shared_ptr<WaterObject> holding(std::shared_ptr<const WaterField> field, st
 Field density_of_water() {
   return water_density_field("density").standard(1025.0).doc("sea water by default");
 }
+Field gravity_of_water() {
+  return number("gravity", "m/s2").above(0).standard().doc("along -z, the weight of the water");
+}
 Field direction_field() {
   return vec3("direction").standard().doc("of travel, horizontal");
 }
@@ -52,7 +55,8 @@ const Record<WaveGiven> wave_given{
      {vec3("crest_at", "m").standard().doc("where a crest stands at time 0"), &WaveGiven::crest_at},
      {number("current", "m/s").standard().doc("along the direction, mean under water"), &WaveGiven::current},
      {integer("order").within(3, 50).standard().doc("of the stream function"), &WaveGiven::order},
-     {density_of_water(), &WaveGiven::density}}};
+     {density_of_water(), &WaveGiven::density},
+     {gravity_of_water(), &WaveGiven::gravity}}};
 
 const Record<SeaGiven> sea_given{
     {{number("significant_height", "m").above(0).required(), &SeaGiven::significant_height},
@@ -65,7 +69,8 @@ const Record<SeaGiven> sea_given{
      {vec3("origin", "m").standard(), &SeaGiven::origin},
      {integer("components").within(10, 10000).standard(), &SeaGiven::components},
      {integer("seed").at_least(0).standard(), &SeaGiven::seed},
-     {density_of_water(), &SeaGiven::density}}};
+     {density_of_water(), &SeaGiven::density},
+     {gravity_of_water(), &SeaGiven::gravity}}};
 
 const Record<SlopeGiven> slope_given{
     {{list("bed", tuple_type({number_type(), number_type()}), 2)
@@ -88,7 +93,8 @@ const Record<SlopeGiven> slope_given{
       &SlopeGiven::friction},
      {direction_field(), &SlopeGiven::direction},
      {vec3("origin", "m").standard(), &SlopeGiven::origin},
-     {density_of_water(), &SlopeGiven::density}}};
+     {density_of_water(), &SlopeGiven::density},
+     {gravity_of_water(), &SlopeGiven::gravity}}};
 
 const Record<WaterArrays> water_arrays{
     {{text("velocity").standard("U").doc("name of the array (m/s, three components), at points or in cells"),
@@ -113,7 +119,8 @@ const Record<WaterArrays> water_arrays{
      {choice("same_along", {"x", "y", "z"})
           .doc("the water is the same all along this axis, as in a flume of one cell")},
      {vec3("shift", "m").standard().doc("is added to the coordinates"), &WaterArrays::shift},
-     {density_of_water(), &WaterArrays::density}}};
+     {density_of_water(), &WaterArrays::density},
+     {gravity_of_water(), &WaterArrays::gravity}}};
 
 const Record<UniformWater> uniform_record{
     {{vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
@@ -122,7 +129,8 @@ const Record<UniformWater> uniform_record{
           .doc("z of the free surface, below which the pressure is hydrostatic; left out: water everywhere, "
                "no buoyancy"),
       &UniformWater::level},
-     {density_of_water(), &UniformWater::density}}};
+     {density_of_water(), &UniformWater::density},
+     {gravity_of_water(), &UniformWater::gravity}}};
 
 const char* const in_water = "(x: number, y: number, z: number, time: number): number";
 
@@ -132,7 +140,8 @@ const Record<FunctionWater> function_record{
      {function("pressure", in_water).unit("Pa").doc("that of the motion included"), &FunctionWater::pressure},
      {function("surface", in_water).unit("m").doc("z of the free surface; water everywhere when left out"),
       &FunctionWater::surface},
-     {density_of_water(), &FunctionWater::density}}};
+     {density_of_water(), &FunctionWater::density},
+     {gravity_of_water(), &FunctionWater::gravity}}};
 
 // A slip in its functions is an error of the line that gave them; a field belongs to no model and no time yet.
 Value tried(std::shared_ptr<WaterObject> object) {
