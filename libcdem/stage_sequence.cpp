@@ -39,7 +39,10 @@ void take_names(const Model& built, Model& then) {
 } // namespace
 
 CDEM_ARCHIVE(FlowCorner, node, inward, stream)
-CDEM_ARCHIVE(FlowPatterns::OfFlow, forces, corners)
+CDEM_ARCHIVE(WaterPoint, velocity, acceleration, pressure, surface, pressure_gradient, surface_slope)
+CDEM_ARCHIVE(NodeInWater, place, water, inertia)
+CDEM_ARCHIVE(AskedWater, block, first_node, nodes, opened)
+CDEM_ARCHIVE(FlowPatterns::OfFlow, forces, corners, asked)
 CDEM_ARCHIVE(FlowPatterns, flows, water_mass)
 CDEM_ARCHIVE(RestartPoint, step, begun, breaks, wall_time, tension_before, shear_before, loop_state,
              previous_force, spring_force, stretch, viscous, one_way, contact_step, strain_step, near, slid,

@@ -13,6 +13,8 @@ local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {100, 1e5}
 local first = cdem.parameter{ name = "first_ns", default = 2.5, range = {0.1, 10}, doc = "stability number of the first group" }
 local step = cdem.parameter{ name = "ns_step", default = 0.5, range = {0.05, 5}, doc = "by which it grows" }
 local groups = cdem.parameter{ name = "groups", default = 7, range = {1, 50}, doc = "at most" }
+local highest_ns = cdem.parameter{ name = "highest_ns", default = 5.5, range = {0.1, 20},
+                                     doc = "the sea is 2.2 times as deep as a wave of this number is high" }
 local waves = cdem.parameter{ name = "waves", default = 1, range = {1, 1000}, doc = "in a group" }
 local period = cdem.parameter{ name = "period", default = 8.0, range = {2, 30}, unit = "s", doc = "for 5 t; Froude scales it" }
 local rest = cdem.parameter{ name = "rest", default = 3.0, range = {0, 1000}, unit = "s", doc = "still water after a group" }
@@ -60,8 +62,7 @@ if not (deformable or breakable) then model:make_rigid{ on = "units" } end
 model:reset_displacement()
 
 -- The slope goes on below the layer to deep water; the waves enter there.
-local highest = (first + step * (groups - 1)) * (concrete.density / sea - 1) * Dn
-local depth = 2.2 * highest
+local depth = 2.2 * highest_ns * (concrete.density / sea - 1) * Dn -- the same however many groups are planned
 local toe = -(depth - level) / gradient
 local bed = { {toe - 3 * Dn, level - depth}, {toe, level - depth}, {3 * length, 3 * length * gradient} }
 local start, group_time = model.time, waves * period + rest

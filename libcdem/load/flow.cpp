@@ -1,6 +1,7 @@
 #include "libcdem/load/flow.hpp"
 
 #include "libcdem/load/gone_body.hpp"
+#include "libcdem/load/inner_shells.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -114,6 +115,13 @@ std::vector<int> flow_faces(const Model& model, const Flow& flow) {
     take(on);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  const std::vector<char> closed_off = of_inner_shells(model);
+  faces.erase(std::remove_if(faces.begin(), faces.end(),
+                             [&](int f) {
+                               const int boundary = model.outer_faces[f].boundary;
+                               return boundary >= 0 && closed_off[boundary] != 0;
+                             }),
+              faces.end());
   return faces;
 }
 

@@ -1,13 +1,34 @@
 #include "libcdem/load/flow_patterns.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace cdem {
+namespace {
+
+// What the field was at a block that is as it was. first_node: of the block then; -1: it has changed.
+void keep_water(const AskedWater& old, int first_node, AskedWater& block) {
+  if (old.block != block.block || old.nodes.size() != block.nodes.size() || first_node != block.first_node)
+    return;
+  block.nodes = old.nodes;
+  block.opened = old.opened;
+  for (geom::Triangle& triangle : block.opened)
+    for (int& node : triangle)
+      node += first_node - old.first_node;
+}
+
+} // namespace
 
 FlowPatterns flow_patterns(const ResolvedConditions& r) {
   FlowPatterns patterns;
   for (const ResolvedFlow& flow : r.flows)
-    patterns.flows.push_back({r.varying[flow.load].forces, flow.corners});
+    if (flow.water) {
+      std::vector<AskedWater>& asked = patterns.flows.emplace_back().asked;
+      for (const BlockInWater& in_water : flow.in_water)
+        asked.push_back(in_water.asked);
+    } else {
+      patterns.flows.push_back({r.varying[flow.load].forces, flow.corners, {}});
+    }
   patterns.water_mass = r.water_mass;
   return patterns;
 }
@@ -16,6 +37,12 @@ void take_flow_patterns(FlowPatterns patterns, ResolvedConditions& r) {
   if (patterns.flows.size() != r.flows.size())
     return;
   for (std::size_t i = 0; i < r.flows.size(); ++i) {
+    if (r.flows[i].water) {
+      const std::vector<AskedWater>& kept = patterns.flows[i].asked;
+      for (std::size_t b = 0; b < std::min(kept.size(), r.flows[i].in_water.size()); ++b)
+        keep_water(kept[b], kept[b].first_node, r.flows[i].in_water[b].asked);
+      continue;
+    }
     std::vector<std::pair<int, geom::Vec3>>& forces = r.varying[r.flows[i].load].forces;
     for (const auto& [node, force] : forces)
       r.external[node] = r.constant[node];
@@ -57,6 +84,9 @@ void keep_flow_patterns(const FlowPatterns& before, const std::vector<int>& new_
     for (std::size_t k = now.corners.size(); k < now.forces.size(); ++k)
       if (goes_on[now.forces[k].first] == 0)
         flow.forces.push_back(now.forces[k]);
+    flow.asked = now.asked;
+    for (std::size_t b = 0; b < std::min(now.asked.size(), old.asked.size()); ++b)
+      keep_water(old.asked[b], new_node[old.asked[b].first_node], flow.asked[b]);
     all.flows.push_back(std::move(flow));
   }
   take_flow_patterns(std::move(all), r);

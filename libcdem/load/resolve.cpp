@@ -8,6 +8,7 @@
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/water_forces.hpp"
 #include "libcdem/state/places.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -203,10 +204,19 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
     resolved.water_density = flow.water->density();
     resolved.drag = flow.drag;
     resolved.added_mass = flow.added_mass;
-    for (const int f : resolved.faces)
-      resolved.blocks.push_back(model.outer_faces[f].block);
-    std::sort(resolved.blocks.begin(), resolved.blocks.end());
-    resolved.blocks.erase(std::unique(resolved.blocks.begin(), resolved.blocks.end()), resolved.blocks.end());
+    std::map<int, std::vector<int>> faces; // by block
+    for (std::size_t i = 0; i < resolved.faces.size(); ++i)
+      faces[model.outer_faces[resolved.faces[i]].block].push_back(static_cast<int>(i));
+    for (auto& [block, of_block] : faces) {
+      BlockInWater& in_water = resolved.in_water.emplace_back();
+      in_water.asked.block = block;
+      in_water.asked.first_node = model.blocks[block].node_begin;
+      for (const int i : of_block) {
+        const OuterFace& face = model.outer_faces[resolved.faces[i]];
+        in_water.face_corners += face.boundary >= 0 ? 3 : face.node_area.size();
+      }
+      in_water.faces = std::move(of_block);
+    }
     r.varying.push_back({{}, [](double) { return 1; }});
   } else if (flow.relative) {
     resolved.direction = flow.direction.normalized();
@@ -238,14 +248,26 @@ void add_relative_flow(const ResolvedFlow& flow, double time, const std::vector<
   }
 }
 
-void require_buoyancy_once(const Conditions& conditions) {
-  if (!conditions.gravity || conditions.gravity->water_density == 0)
+// Bodies and the water that carries them have one weight.
+void require_one_gravity(const Conditions& conditions, double time) {
+  if (!conditions.gravity)
     return;
-  for (const Flow& flow : conditions.flows)
-    if (flow.water && flow.water->has_pressure())
-      throw geom::InputError("gravity: water_density", fmt::format("{:g}", conditions.gravity->water_density),
+  const Gravity& gravity = *conditions.gravity;
+  constexpr double rounded = 5e-3; // 9.8 for 9.81
+  for (const Flow& flow : conditions.flows) {
+    if (!flow.water || !flow.water->has_pressure())
+      continue;
+    if (gravity.water_density != 0)
+      throw geom::InputError("gravity: water_density", fmt::format("{:g}", gravity.water_density),
                              "left out beside a flow whose water has a pressure",
                              "that pressure is the buoyancy already");
+    const double g = flow.water->gravity();
+    const geom::Vec3 given = gravity.turning ? gravity.turning(time) : gravity.acceleration;
+    if ((given + g * geom::Vec3::UnitZ()).norm() > rounded * g)
+      throw geom::InputError("gravity", geom::text(given),
+                             fmt::format("(0, 0, -{:g}) m/s2, the gravity of the water of a flow", g),
+                             "give the water the same `gravity`; water stands level in z");
+  }
 }
 
 } // namespace
@@ -253,6 +275,10 @@ void require_buoyancy_once(const Conditions& conditions) {
 void refresh_flows(const Model& model, const State& state, ResolvedConditions& r) {
   r.water_mass.clear();
   for (ResolvedFlow& flow : r.flows) {
+    if (flow.water) {
+      ask_water(model, state, flow, r.water_mass);
+      continue;
+    }
     std::vector<std::pair<int, geom::Vec3>>& forces = r.varying[flow.load].forces;
     // What the pattern leaves keeps no force of it.
     for (const auto& [node, force] : forces)
@@ -261,19 +287,16 @@ void refresh_flows(const Model& model, const State& state, ResolvedConditions& r
       forces = flow_pattern(model, state, flow);
       continue;
     }
-    WaterForces water;
-    if (flow.water)
-      water = water_forces(model, state, flow, r.water_mass);
-    flow.corners = flow.water ? std::move(water.corners) : flow_corners(model, state, flow);
+    flow.corners = flow_corners(model, state, flow);
     forces.clear();
     for (const FlowCorner& corner : flow.corners)
       forces.emplace_back(corner.node, geom::Vec3::Zero());
-    forces.insert(forces.end(), water.steady.begin(), water.steady.end());
   }
+  place_water(model, state, {0, static_cast<std::int64_t>(model.node_position.size())}, 1, r);
 }
 
 ResolvedConditions resolve(const Model& model, const State& state, const Conditions& conditions) {
-  require_buoyancy_once(conditions);
+  require_one_gravity(conditions, state.time);
   ResolvedConditions r;
   const std::size_t n = model.node_position.size();
   HeldNodes held;

@@ -23,7 +23,28 @@ struct FlowCorner {
   geom::Vec3 stream = geom::Vec3::Zero(); // m/s, velocity of the water there; of a field
 };
 
-// A flow's pattern follows the faces: it is found again now and then.
+// Water at a node when the field was asked last (load/water_forces.hpp).
+struct NodeInWater {
+  geom::Vec3 place = geom::Vec3::Zero(); // m, of the node then
+  WaterPoint water; // above the surface with the pressure of the water continued: below 0
+  geom::Vec3 inertia = geom::Vec3::Zero(); // N, of accelerated water on the wet volume around it
+};
+
+// What is kept of a block from one time when the field is asked to the next.
+struct AskedWater {
+  int block = 0, first_node = 0;
+  std::vector<NodeInWater> nodes;     // of the block
+  std::vector<geom::Triangle> opened; // by cracks, outward
+};
+
+struct BlockInWater {
+  AskedWater asked;
+  std::vector<int> faces;                        // into ResolvedFlow::faces
+  std::size_t face_corners = 0;                  // of these
+  std::size_t first_corner = 0, first_force = 0; // among those of the flow (place_water)
+};
+
+// A flow's pattern follows the faces: it is found again now and then. That of a field of water is placed in every step.
 struct ResolvedFlow {
   geom::Vec3 direction = geom::Vec3::Zero(); // unit
   std::vector<int> faces;                    // Model::outer_faces
@@ -36,7 +57,7 @@ struct ResolvedFlow {
   std::vector<FlowCorner> corners;             // the first of the load's forces, in this order
   // Of a field of water (load/water_forces.hpp).
   std::shared_ptr<const WaterField> water;
-  std::vector<int> blocks; // those whose faces it meets
+  std::vector<BlockInWater> in_water; // blocks whose faces it meets, ascending
   double drag = 1, added_mass = 0;
 
   bool relative() const { return velocity || water; }
@@ -100,7 +121,7 @@ void each_node(const ResolvedConditions& r, Range nodes, const Free& free, const
 // nothing, and when a rigid body is held in part.
 ResolvedConditions resolve(const Model&, const State&, const Conditions&);
 
-// The patterns of flows for where the faces are now.
+// The patterns of flows for where the faces are now; fields of water are asked again.
 void refresh_flows(const Model&, const State&, ResolvedConditions&);
 
 // external at `time`; does nothing when no load varies. velocity: m/s (n_nodes), of surfaces in a flow; null: they are

@@ -1,6 +1,8 @@
 #include "libcdem/load/water_forces.hpp"
 
+#include "libcdem/element/small_strain.hpp"
 #include "libcdem/load/flow.hpp"
+#include "libcdem/parallel/chunks.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
@@ -11,18 +13,37 @@ namespace {
 
 constexpr double far_from_surface = 1e9; // m; heights over a surface that is not there
 
-struct NodeWater {
+// Water at a node where it stands now, of a field that was asked nearby.
+struct WaterHere {
   geom::Vec3 place = geom::Vec3::Zero(); // m
-  WaterPoint water;
-  double height = 0; // m, over the free surface
+  double height = 0;                     // m, over the free surface
+  double pressure = 0;                   // Pa
   bool wet() const { return height < 0; }
 };
+
+WaterHere continued(const NodeInWater& asked, const geom::Vec3& place) {
+  const geom::Vec3 moved = place - asked.place;
+  WaterHere here;
+  here.place = place;
+  here.height = std::clamp(place.z() - (asked.water.surface + asked.water.surface_slope.dot(moved)),
+                           -far_from_surface, far_from_surface);
+  here.pressure = asked.water.pressure + asked.water.pressure_gradient.dot(moved);
+  return here;
+}
 
 // Integrals over the wet part of a triangle: of the shape functions (m2), and of these times the pressure (N).
 struct WetTriangle {
   std::array<double, 3> area{}, pressure{};
 
-  WetTriangle(const std::array<const NodeWater*, 3>& corner, double whole) {
+  WetTriangle(const std::array<const WaterHere*, 3>& corner, double whole) {
+    if (corner[0]->wet() && corner[1]->wet() && corner[2]->wet()) { // most are
+      const double sum = corner[0]->pressure + corner[1]->pressure + corner[2]->pressure;
+      for (int i = 0; i < 3; ++i) {
+        area[i] = whole / 3;
+        pressure[i] = whole / 12 * (sum + corner[i]->pressure);
+      }
+      return;
+    }
     std::array<Point, 4> polygon{};
     int n = 0;
     for (int i = 0; i < 3; ++i) {
@@ -31,7 +52,7 @@ struct WetTriangle {
       std::array<double, 3> weight{};
       if (a < 0) {
         weight[i] = 1;
-        polygon[n++] = {weight, corner[i]->water.pressure};
+        polygon[n++] = {weight, corner[i]->pressure};
       }
       if ((a < 0) != (b < 0)) {
         weight = {};
@@ -61,105 +82,213 @@ private:
   }
 };
 
+// A corner of a part of a tetrahedron.
+struct TetCorner {
+  Eigen::Vector4d weight; // shape functions of the whole one there
+  double height;          // m, over the free surface
+};
+
+// Integral of the shape functions over the part below the free surface, of a part of this volume. An edge that crosses the
+// surface divides the part in two.
+Eigen::Vector4d wet_part(const std::array<TetCorner, 4>& corners, double volume) {
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (corners[i].height < 0 && corners[j].height > 0) {
+        const double below = corners[i].height / (corners[i].height - corners[j].height);
+        std::array<TetCorner, 4> lower = corners, upper = corners;
+        lower[j] = upper[i] = {corners[i].weight + below * (corners[j].weight - corners[i].weight), 0};
+        return wet_part(lower, below * volume) + wet_part(upper, (1 - below) * volume);
+      }
+  if (std::none_of(corners.begin(), corners.end(), [](const TetCorner& c) { return c.height < 0; }))
+    return Eigen::Vector4d::Zero();
+  return 0.25 * volume * (corners[0].weight + corners[1].weight + corners[2].weight + corners[3].weight);
+}
+
+// Share of the volume around each node of a block that is under water.
+std::vector<double> wet_shares(const Model& model, const Block& block, const std::vector<double>& height) {
+  std::vector<double> share;
+  for (const double h : height)
+    share.push_back(h < 0 ? 1 : 0);
+  if (std::count(share.begin(), share.end(), share[0]) == static_cast<std::ptrdiff_t>(share.size()))
+    return share;
+  std::vector<double> wet(height.size()), whole(height.size());
+  for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
+    std::array<TetCorner, 4> corners;
+    for (int i = 0; i < 4; ++i)
+      corners[i] = {Eigen::Vector4d::Unit(i), height[model.tets[tet][i] - block.node_begin]};
+    const double volume = tet_volume(model, tet);
+    const Eigen::Vector4d part = wet_part(corners, volume);
+    for (int i = 0; i < 4; ++i) {
+      wet[model.tets[tet][i] - block.node_begin] += part[i];
+      whole[model.tets[tet][i] - block.node_begin] += 0.25 * volume;
+    }
+  }
+  for (std::size_t i = 0; i < share.size(); ++i)
+    share[i] = whole[i] > 0 ? wet[i] / whole[i] : share[i];
+  return share;
+}
+
+// Faces of a block inside its mesh that cracks have opened, from both sides, outward.
+void find_opened(const Model& model, const State& state, ResolvedFlow& flow) {
+  std::vector<AskedWater*> of_block(model.blocks.size(), nullptr);
+  for (BlockInWater& in_water : flow.in_water) {
+    in_water.asked.opened.clear();
+    of_block[in_water.asked.block] = &in_water.asked;
+  }
+  if (!flow.new_faces)
+    return;
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (!of_block[chunk.block] || chunk.stars || !is_open(state.faces[batch], lane))
+      return;
+    const FaceNodes pair = face_nodes(model.mesh, chunk, batch, lane);
+    of_block[chunk.block]->opened.push_back(pair.a);
+    of_block[chunk.block]->opened.push_back(pair.outward_b());
+  });
+}
+
+// Writes the corners of the faces of a block, in their order.
 class ForcesOnBlock {
 public:
-  ForcesOnBlock(const Model& model, const State& state, const ResolvedFlow& flow, int block,
-                WaterForces& forces)
-      : model_(model), block_(model.blocks[block]), forces_(forces) {
-    for (int node = block_.node_begin; node < block_.node_end; ++node) {
-      NodeWater& n = nodes_.emplace_back();
-      n.place = place_of(model, state, node);
-      n.water = flow.water->at(n.place, state.time);
-      n.height = std::clamp(n.place.z() - n.water.surface, -far_from_surface, far_from_surface);
+  using Force = std::pair<int, geom::Vec3>;
+  // here: memory for the nodes. corner: null without drag.
+  ForcesOnBlock(const Model& model, const State& state, const AskedWater& asked, std::vector<WaterHere>& here,
+                FlowCorner* corner, Force* force)
+      : model_(model), state_(state), asked_(asked), first_(asked.first_node), corner_(corner), force_(force),
+        here_(here) {
+    here_.clear();
+    for (std::size_t i = 0; i < asked.nodes.size(); ++i) {
+      const int node = first_ + static_cast<int>(i);
+      here_.push_back(continued(asked.nodes[i], place_of(model, state, node)));
+      force_[i] = {node, asked.nodes[i].inertia};
     }
-    total_.resize(nodes_.size(), geom::Vec3::Zero());
   }
 
   void triangle(const geom::Triangle& nodes, const CornerNormals* smooth) {
-    const std::array<const NodeWater*, 3> corner{&at(nodes[0]), &at(nodes[1]), &at(nodes[2])};
+    const std::array<const WaterHere*, 3> corner{&at(nodes[0]), &at(nodes[1]), &at(nodes[2])};
     if (!corner[0]->wet() && !corner[1]->wet() && !corner[2]->wet())
-      return;
+      return add_dry(nodes);
     const std::array<geom::Vec3, 3> x{corner[0]->place, corner[1]->place, corner[2]->place};
     const geom::Vec3 outward = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
     const double area = outward.norm();
     if (!(area > 0))
-      return;
+      return add_dry(nodes);
     const geom::Vec3 n = outward / area;
     const WetTriangle wet(corner, area);
-    const CornerNormals normals = smooth ? turned_with(*smooth, x) : CornerNormals{n, n, n};
+    const CornerNormals normals = smooth && corner_ ? turned_with(*smooth, x) : CornerNormals{n, n, n};
     for (int i = 0; i < 3; ++i) {
-      total_[nodes[i] - block_.node_begin] -= wet.pressure[i] * n;
-      forces_.corners.push_back({nodes[i], -wet.area[i] * normals[i], corner[i]->water.velocity});
+      force_[nodes[i] - first_].second -= wet.pressure[i] * n;
+      add(nodes[i], -wet.area[i] * normals[i]);
     }
   }
 
-  void block_face(const OuterFace& face, const geom::Vec3& normal) {
-    for (const auto& [node, area] : face.node_area)
-      if (at(node).wet()) {
-        total_[node - block_.node_begin] -= at(node).water.pressure * area * normal;
-        forces_.corners.push_back({node, -area * normal, at(node).water.velocity});
-      }
-  }
-
-  // On its volume; then all but the drag.
-  void finish(const ResolvedFlow& flow, std::vector<double>& water_mass) {
-    const double accelerated = flow.added_mass + (flow.water->has_dynamic_pressure() ? 0 : 1);
-    if (flow.added_mass > 0)
-      water_mass.resize(model_.node_position.size(), 0.0);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const int node = block_.node_begin + static_cast<int>(i);
-      if (nodes_[i].wet()) {
-        const double mass = flow.water_density * node_volume(model_, node);
-        total_[i] += accelerated * mass * nodes_[i].water.acceleration;
-        if (flow.added_mass > 0)
-          water_mass[node] += flow.added_mass * mass;
-      }
-      if (!total_[i].isZero(0))
-        forces_.steady.emplace_back(node, total_[i]);
+  void block_face(const OuterFace& face) {
+    const geom::Vec3 normal = present_normal(model_, state_, face);
+    for (const auto& [node, area] : face.node_area) {
+      const double wet = at(node).wet() ? area : 0;
+      force_[node - first_].second -= at(node).pressure * wet * normal;
+      add(node, -wet * normal);
     }
   }
 
 private:
-  const NodeWater& at(int node) const { return nodes_[node - block_.node_begin]; }
+  const WaterHere& at(int node) const { return here_[node - first_]; }
+  void add_dry(const geom::Triangle& nodes) {
+    for (const int node : nodes)
+      add(node, geom::Vec3::Zero());
+  }
+  void add(int node, const geom::Vec3& inward) {
+    if (corner_)
+      *corner_++ = {node, inward, asked_.nodes[node - first_].water.velocity};
+  }
 
   const Model& model_;
-  const Block& block_;
-  WaterForces& forces_;
-  std::vector<NodeWater> nodes_;  // of the block
-  std::vector<geom::Vec3> total_; // N, likewise
+  const State& state_;
+  const AskedWater& asked_;
+  int first_;
+  FlowCorner* corner_;
+  Force* force_;
+  std::vector<WaterHere>& here_;
 };
 
 } // namespace
 
-WaterForces water_forces(const Model& model, const State& state, const ResolvedFlow& flow,
-                         std::vector<double>& water_mass) {
-  WaterForces forces;
-  std::vector<ForcesOnBlock> blocks;
-  std::vector<int> number(model.blocks.size(), -1);
-  blocks.reserve(flow.blocks.size());
-  for (const int block : flow.blocks) {
-    number[block] = static_cast<int>(blocks.size());
-    blocks.emplace_back(model, state, flow, block, forces);
+void ask_water(const Model& model, const State& state, ResolvedFlow& flow, std::vector<double>& water_mass) {
+  find_opened(model, state, flow);
+  if (flow.added_mass > 0)
+    water_mass.resize(model.node_position.size(), 0.0);
+  std::vector<double> height;
+  for (BlockInWater& in_water : flow.in_water) {
+    std::vector<NodeInWater>& nodes = in_water.asked.nodes;
+    const Block& block = model.blocks[in_water.asked.block];
+    nodes.clear();
+    height.clear();
+    for (int node = block.node_begin; node < block.node_end; ++node) {
+      NodeInWater& asked = nodes.emplace_back();
+      asked.place = place_of(model, state, node);
+      asked.water = flow.water->at(asked.place, state.time);
+      height.push_back(continued(asked, asked.place).height);
+      if (height.back() > 0 &&
+          height.back() < far_from_surface) // the pressure of the water below, so far continued
+        asked.water.pressure = asked.water.pressure_gradient.z() * height.back();
+    }
+    const std::vector<double> wet = wet_shares(model, block, height);
+    for (std::size_t i = 0; i < wet.size(); ++i) {
+      const int node = block.node_begin + static_cast<int>(i);
+      const WaterPoint& water = nodes[i].water;
+      const double mass = wet[i] > 0 ? flow.water_density * wet[i] * node_volume(model, node) : 0;
+      geom::Vec3 acceleration = flow.added_mass * water.acceleration;
+      if (!flow.water->has_dynamic_pressure())
+        acceleration += water.acceleration + flow.water->gravity() * water.surface_slope;
+      nodes[i].inertia = mass > 0 ? geom::Vec3(mass * acceleration) : geom::Vec3::Zero();
+      if (flow.added_mass > 0)
+        water_mass[node] += flow.added_mass * mass;
+    }
   }
-  for (std::size_t i = 0; i < flow.faces.size(); ++i) {
-    const OuterFace& face = model.outer_faces[flow.faces[i]];
-    ForcesOnBlock& block = blocks[number[face.block]];
-    if (face.boundary >= 0)
-      block.triangle(model.mesh.boundary[face.boundary].nodes, &flow.normals[i]);
-    else
-      block.block_face(face, present_normal(model, state, face));
-  }
-  if (flow.new_faces)
-    each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-      if (number[chunk.block] < 0 || chunk.stars || !is_open(state.faces[batch], lane))
+}
+
+void place_water(const Model& model, const State& state, Range nodes, int threads, ResolvedConditions& r) {
+  for (ResolvedFlow& flow : r.flows) {
+    if (!flow.water)
+      continue;
+    const bool drag = flow.drag > 0;
+    std::size_t corners = 0, nodes_in_water = 0;
+    for (BlockInWater& in_water : flow.in_water) {
+      in_water.first_corner = corners;
+      in_water.first_force = nodes_in_water;
+      corners += drag ? in_water.face_corners + 3 * in_water.asked.opened.size() : 0;
+      nodes_in_water += in_water.asked.nodes.size();
+    }
+    // Forces on the corners, then those on the nodes.
+    std::vector<std::pair<int, geom::Vec3>>& forces = r.varying[flow.load].forces;
+    flow.corners.resize(corners);
+    forces.resize(corners + nodes_in_water);
+    for_chunks(static_cast<std::int64_t>(flow.in_water.size()), threads, [&](std::int64_t b) {
+      const BlockInWater& in_water = flow.in_water[b];
+      const AskedWater& asked = in_water.asked;
+      const Block& block = model.blocks[asked.block];
+      FlowCorner* const corner = flow.corners.data() + in_water.first_corner;
+      std::pair<int, geom::Vec3>* const force = forces.data() + corners + in_water.first_force;
+      if (block.node_begin >= nodes.end || block.node_end <= nodes.begin) {
+        std::fill_n(corner, drag ? in_water.face_corners + 3 * asked.opened.size() : 0,
+                    FlowCorner{asked.first_node, geom::Vec3::Zero(), geom::Vec3::Zero()});
+        std::fill_n(force, asked.nodes.size(), std::pair(asked.first_node, geom::Vec3(geom::Vec3::Zero())));
         return;
-      const FaceNodes pair = face_nodes(model.mesh, chunk, batch, lane);
-      blocks[number[chunk.block]].triangle(pair.a, nullptr);
-      blocks[number[chunk.block]].triangle(pair.outward_b(), nullptr);
+      }
+      thread_local std::vector<WaterHere> here;
+      ForcesOnBlock on_block(model, state, asked, here, drag ? corner : nullptr, force);
+      for (const int i : in_water.faces) {
+        const OuterFace& face = model.outer_faces[flow.faces[i]];
+        if (face.boundary >= 0)
+          on_block.triangle(model.mesh.boundary[face.boundary].nodes, &flow.normals[i]);
+        else
+          on_block.block_face(face);
+      }
+      for (const geom::Triangle& opened : asked.opened)
+        on_block.triangle(opened, nullptr);
     });
-  for (ForcesOnBlock& block : blocks)
-    block.finish(flow, water_mass);
-  return forces;
+    for (std::size_t i = 0; i < corners; ++i)
+      forces[i].first = flow.corners[i].node;
+  }
 }
 
 } // namespace cdem

@@ -7,23 +7,28 @@
 //   on the volume below it
 //     rho C_A Du/Dt                  added mass C_A = C_M - 1; what it takes from the body's own acceleration is inertia of
 //                                    the nodes (ResolvedConditions::water_mass)
-//     rho Du/Dt                      Froude-Krylov, only where the field's pressure is not that of the motion
+//     rho (Du/Dt + g grad(eta))      Froude-Krylov, only where the field's pressure is not that of the motion. The hydrostatic
+//                                    pressure below a surface of slope grad(eta) holds the second term with the opposite sign
 //
-// The field is asked at the nodes; between them all is linear. The free surface cuts triangles by a line, and the pressure
-// vanishes there, so in still water the buoyancy is that of the cut mesh to rounding. Faces of convex blocks of small strain
-// are cut at nodes only. Weight is gravity's, in air as under water.
+// The field is asked at the nodes now and then (ask_water); between them all is linear. In every step the forces are those
+// on the faces where they stand (place_water), with the pressure and the surface continued by their gradients from where the
+// node was asked. Forces that stayed with the nodes of a body that moves would do work in a cycle: still water would drive it.
+//
+// The free surface cuts triangles by a line, and the pressure vanishes there, so in still water the buoyancy is that of the
+// cut mesh to rounding. It cuts tetrahedra by a plane likewise. Faces of convex blocks of small strain are cut at nodes only.
+// Weight is gravity's, in air as under water.
 #pragma once
 
 #include "libcdem/load/resolve.hpp"
 
 namespace cdem {
 
-struct WaterForces {
-  std::vector<FlowCorner> corners; // for the drag, which depends on the velocity of the surface
-  std::vector<std::pair<int, geom::Vec3>> steady; // node, N: all but the drag
-};
-
+// Asks the field at the nodes of the flow's blocks where they stand, and finds which faces cracks have opened there.
 // water_mass: grows to n_nodes where there is added mass.
-WaterForces water_forces(const Model&, const State&, const ResolvedFlow&, std::vector<double>& water_mass);
+void ask_water(const Model&, const State&, ResolvedFlow&, std::vector<double>& water_mass);
+
+// Corners and forces of the flows of fields for where the faces stand now. nodes: those whose forces are wanted; others of the
+// same blocks may get any.
+void place_water(const Model&, const State&, Range nodes, int threads, ResolvedConditions&);
 
 } // namespace cdem

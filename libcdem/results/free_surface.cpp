@@ -1,6 +1,7 @@
 #include "libcdem/results/free_surface.hpp"
 
 #include "libcdem/load/water_table.hpp"
+#include "libcdem/water/plain_water.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -71,8 +72,10 @@ private:
     return {sheet_.origin[0] + column * sheet_.cell[0], sheet_.origin[1] + row * sheet_.cell[1], top_};
   }
   int add(const Vec3& x, const WaterPoint& water) {
-    sheet_.points.emplace_back(x.x(), x.y(), water.surface);
-    sheet_.velocity.push_back(water.velocity);
+    const Vec3& surface = sheet_.points.emplace_back(x.x(), x.y(), water.surface);
+    // Over a model that lies below the surface, the field was asked deeper.
+    const bool deeper = x.z() < water.surface;
+    sheet_.velocity.push_back(deeper ? asked(water_, surface, time_).velocity : water.velocity);
     return static_cast<int>(sheet_.points.size()) - 1;
   }
 
@@ -209,6 +212,7 @@ public:
     return point;
   }
   double density() const override { return 0; }
+  double gravity() const override { return standard_water_gravity; }
   bool has_dynamic_pressure() const override { return false; }
   bool has_pressure() const override { return false; }
 

@@ -4,6 +4,7 @@
 #include "libcdem/bond/release.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/integrate/move_columns.hpp"
+#include "libcdem/load/water_forces.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/results/energy.hpp"
@@ -22,7 +23,8 @@ namespace {
 
 // Steps between questions whether to stop, to write a checkpoint, to show the progress.
 constexpr std::int64_t poll_every = 16;
-// Steps between looks at which faces a flow meets: they turn by next to nothing in between. And at water, which moves.
+// Steps between looks at which faces a flow meets: they turn by next to nothing in between. And between those at which a
+// field of water is asked, whose forces follow the faces in every step.
 constexpr std::int64_t flow_every = 100, water_every = 20;
 static_assert(watch_every % flow_every == 0 && watch_every % water_every == 0,
               "a stage that goes on looks anew where it did when it was left");
@@ -54,6 +56,10 @@ void ask_for_huge_pages_of(const Model& model, const State& state, const Workspa
   ask_for_huge_pages(work.bond.acting_force);
   ask_for_huge_pages(work.bond.batches.springs);
   ask_for_huge_pages(work.bond.batches.interfaces);
+}
+
+bool in_water(const ResolvedConditions& r) {
+  return std::any_of(r.flows.begin(), r.flows.end(), [](const ResolvedFlow& f) { return f.water; });
 }
 
 // A NaN anywhere shows in the sums over all forces or in the one over all velocities in the step it appears.
@@ -115,13 +121,18 @@ void Stage::update_loads(const Stepping* stepping) {
     time_step_ = stepping->time_step; // it may have become shorter since nodes were split
     advance_columns(r, context_.state, {time, stepping->time_step, stepping->kick});
     update_supports(r, time + 0.5 * stepping->time_step);
-  } else if (r.bolts.empty()) {
+  } else if (r.bolts.empty() && !in_water(r)) {
     return;
   }
+  place_water();
   if (!r.bolts.empty())
     advance_bolts(r.bolts, context_.state, r.varying[r.bolt_load].forces);
   update_external(r, time, moving());
   progress_.times.end(StepLine::loads);
+}
+
+void Stage::place_water() {
+  cdem::place_water(context_.model, context_.state, work.part().nodes(), context_.threads, work.resolved);
 }
 
 double Stage::update_crack_pressures(double stable) {
@@ -263,10 +274,7 @@ void Stage::watch() {
   release_parted_blocks();
   if (is_due(watch_every))
     look_over();
-  const std::vector<ResolvedFlow>& flows = work.resolved.flows;
-  const bool of_water =
-      std::any_of(flows.begin(), flows.end(), [](const ResolvedFlow& f) { return f.water; });
-  if (!flows.empty() && is_due(of_water ? water_every : flow_every)) {
+  if (!work.resolved.flows.empty() && is_due(in_water(work.resolved) ? water_every : flow_every)) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
     if (in_real_time && !scale_masses)

@@ -133,6 +133,7 @@ private:
   // m/s, of the nodes, for loads that depend on it; null in a relaxation, whose velocities are lengths per step.
   const std::vector<Node>* moving() const { return in_real_time ? &context_.state.velocity : nullptr; }
   StageStep here() const { return {context_.number, progress_.kind(), step}; }
+  void place_water(); // forces of fields of water for where the faces stand
   void record_step(); // energies and breaks
   void release_parted_blocks();
   void look_over();        // the state is sound and up to date

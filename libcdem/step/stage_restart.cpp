@@ -109,6 +109,7 @@ void Stage::go_on_from(const RestartPoint& from) {
   work.bond.viscous = from.viscous;
   slid_ = from.slid;
   take_flow_patterns(from.flows, work.resolved);
+  place_water();
   update_external(work.resolved, context_.state.time, moving());
 }
 

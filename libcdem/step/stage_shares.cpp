@@ -37,9 +37,37 @@ std::string in_words(const std::vector<double>& shares) {
   return text + " %";
 }
 
+// Corners of faces in water that belong to several chunks: whoever owns one reads all.
+void add_nodes_in_water(const Model& model, const ResolvedFlow& flow, std::vector<std::int32_t>& nodes) {
+  const auto chunk_of = [&](int node) {
+    return std::upper_bound(model.chunks.begin(), model.chunks.end(), node,
+                            [](int n, const BlockChunk& chunk) { return n < chunk.nodes.begin; });
+  };
+  const auto add = [&](const geom::Triangle& corners) {
+    if (chunk_of(corners[0]) != chunk_of(corners[1]) || chunk_of(corners[0]) != chunk_of(corners[2]))
+      nodes.insert(nodes.end(), corners.begin(), corners.end());
+  };
+  std::vector<char> meets(model.blocks.size(), 0);
+  for (const BlockInWater& in_water : flow.in_water)
+    meets[in_water.asked.block] = 1;
+  for (const int f : flow.faces)
+    if (const int boundary = model.outer_faces[f].boundary; boundary >= 0)
+      add(model.mesh.boundary[boundary].nodes);
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (!meets[chunk.block] || chunk.stars)
+      return;
+    const FaceNodes pair = face_nodes(model.mesh, chunk, batch, lane);
+    add(pair.a);
+    add(pair.b);
+  });
+}
+
 // Nodes that loads need of whichever rank.
-std::vector<std::int32_t> nodes_of_bolts(const ResolvedConditions& r) {
+std::vector<std::int32_t> nodes_of_loads(const Model& model, const ResolvedConditions& r) {
   std::vector<std::int32_t> nodes;
+  for (const ResolvedFlow& flow : r.flows)
+    if (flow.water)
+      add_nodes_in_water(model, flow, nodes);
   for (const ResolvedBolt& bolt : r.bolts)
     for (const RockPlace& at : bolt.at)
       if (at.inside)
@@ -67,7 +95,8 @@ void StageShares::share(const std::vector<Node>* moving) {
   }
   const Range all{0, static_cast<std::int64_t>(context_.model.chunks.size())};
   const std::vector<double> loads = chunk_loads(context_.model, context_.state, all);
-  work_.share(std::make_shared<SharedState>(context_.model, nodes_of_bolts(work_.resolved), loads));
+  work_.share(
+      std::make_shared<SharedState>(context_.model, nodes_of_loads(context_.model, work_.resolved), loads));
   loads_ = in_words(shares_of_load(loads, work_.part().chunk_begin));
 }
 

@@ -9,10 +9,13 @@
 #include "libgeom/core/regular_file.hpp"
 #include "libgeom/core/text_table.hpp"
 
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkCellDataToPointData.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDataSetReader.h>
+#include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -94,8 +97,11 @@ bool is_at_points(vtkDataSet* data, const std::string& name, const char* field, 
   vtkDataArray* const at_points = data->GetPointData()->GetArray(name.c_str());
   vtkDataArray* const array = at_points ? at_points : data->GetCellData()->GetArray(name.c_str());
   if (array == nullptr)
-    refuse(path,
-           std::string(field) + " = \"" + name + "\": there is no such array; it has " + names_in(data));
+    refuse(path, std::string(field) + " = \"" + name + "\": there is no such array; it has " +
+                     names_in(data) +
+                     (std::filesystem::path(path).extension() == ".vtk"
+                          ? " (VTK reads a .vtk in text up to the first value that is no number, such as nan)"
+                          : ""));
   const vtkIdType rows = at_points ? data->GetNumberOfPoints() : data->GetNumberOfCells();
   if (array->GetNumberOfComponents() != components || array->GetNumberOfTuples() != rows)
     refuse(path, "\"" + name + "\" has " + std::to_string(array->GetNumberOfComponents()) +
@@ -108,6 +114,100 @@ bool is_at_points(vtkDataSet* data, const std::string& name, const char* field, 
                          (at_points ? "point " : "cell ") + std::to_string(row) +
                          ": must be a finite number");
   return at_points != nullptr;
+}
+
+// Of a cell with flat faces; its corners' mean where it has no volume. OpenFOAM's values of cells stand there.
+double centroid_height(vtkCell* cell) {
+  const auto mean_of = [](vtkPoints* points) {
+    geom::Vec3 sum = geom::Vec3::Zero();
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+      sum += geom::Vec3(points->GetPoint(i));
+    return geom::Vec3(sum / static_cast<double>(points->GetNumberOfPoints()));
+  };
+  const geom::Vec3 middle = mean_of(cell->GetPoints());
+  double size = 0, moment = 0; // twice the area or six times the volume of simplices around the middle
+  const auto add = [&](double part, double height) {
+    size += std::abs(part);
+    moment += std::abs(part) * height;
+  };
+  const auto corner = [](vtkCell* of, vtkIdType i) {
+    return geom::Vec3(of->GetPoints()->GetPoint(i % of->GetNumberOfPoints()));
+  };
+  if (cell->GetCellType() == VTK_VOXEL ||
+      cell->GetCellType() == VTK_PIXEL) // their corners are in another order
+    return middle.z();
+  if (cell->GetCellDimension() == 2)
+    for (vtkIdType i = 0; i < cell->GetNumberOfPoints(); ++i) {
+      const geom::Vec3 a = corner(cell, i), b = corner(cell, i + 1);
+      add((a - middle).cross(b - middle).norm(), (middle + a + b).z() / 3);
+    }
+  for (int f = 0; f < cell->GetNumberOfFaces(); ++f) {
+    vtkCell* const face = cell->GetFace(f);
+    const geom::Vec3 centre = mean_of(face->GetPoints());
+    for (vtkIdType i = 0; i < face->GetNumberOfPoints(); ++i) {
+      const geom::Vec3 a = corner(face, i), b = corner(face, i + 1);
+      add((centre - middle).dot((a - middle).cross(b - middle)), (middle + centre + a + b).z() / 4);
+    }
+  }
+  return size > 0 ? moment / size : middle.z();
+}
+
+// What is averaged and interpolated, at the points or in the cells of the mesh: velocity, head and fraction, and the first two
+// times a weight, and the weight.
+const char *const velocity_name = "u", *const head_name = "q", *const fraction_name = "a",
+                  *const weighted_velocity = "w u", *const weighted_head = "w q", *const weight_name = "w";
+
+vtkSmartPointer<vtkDataSet> with_means(vtkDataSet* data) { // of cells, at points
+  vtkNew<vtkCellDataToPointData> means;
+  means->SetInputData(data);
+  means->Update();
+  return means->GetOutput();
+}
+
+// The head is p + rho g z, Pa.
+vtkSmartPointer<vtkDataSet> weighted(vtkDataSet* data, bool at_points, const WaterArrays& wish) {
+  vtkDataSetAttributes* const given =
+      at_points ? static_cast<vtkDataSetAttributes*>(data->GetPointData()) : data->GetCellData();
+  const auto array = [&](const std::string& name) {
+    return name.empty() ? nullptr : given->GetArray(name.c_str());
+  };
+  vtkDataArray *const velocity = array(wish.velocity), *const pressure = array(wish.pressure),
+                      *const fraction = array(wish.fraction);
+  const vtkIdType rows = velocity->GetNumberOfTuples();
+  auto result = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+  result->CopyStructure(data);
+  const auto made = [&](const char* name, int components) {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(name);
+    values->SetNumberOfComponents(components);
+    values->SetNumberOfTuples(rows);
+    (at_points ? static_cast<vtkDataSetAttributes*>(result->GetPointData()) : result->GetCellData())
+        ->AddArray(values);
+    return values.Get();
+  };
+  vtkDoubleArray *const u = made(velocity_name, 3), *const wu = made(weighted_velocity, 3),
+                        *const w = made(weight_name, 1), *const a = made(fraction_name, 1);
+  vtkDoubleArray *const q = pressure ? made(head_name, 1) : nullptr, *const wq = pressure
+                                                                                     ? made(weighted_head, 1)
+                                                                                     : nullptr;
+  for (vtkIdType row = 0; row < rows; ++row) {
+    const double share = fraction ? fraction->GetComponent(row, 0) : 1,
+                 weight = std::clamp(2 * share - 1, 0.0, 1.0);
+    a->SetValue(row, share);
+    w->SetValue(row, weight);
+    for (int c = 0; c < 3; ++c) {
+      u->SetComponent(row, c, velocity->GetComponent(row, c));
+      wu->SetComponent(row, c, weight * velocity->GetComponent(row, c));
+    }
+    if (!pressure)
+      continue;
+    const double z = at_points ? data->GetPoint(row)[2] : centroid_height(data->GetCell(row)),
+                 head =
+                     wish.pressure_factor * pressure->GetComponent(row, 0) + wish.density * wish.gravity * z;
+    q->SetValue(row, head);
+    wq->SetValue(row, weight * head);
+  }
+  return result;
 }
 
 struct Grid {
@@ -155,8 +255,8 @@ Grid grid_over(vtkDataSet* data, const WaterArrays& wish, const std::string& pat
   return grid;
 }
 
-std::vector<double> values_of(vtkDataSet* at_grid, const std::string& name) {
-  vtkDataArray* const array = at_grid->GetPointData()->GetArray(name.c_str());
+std::vector<double> values_of(vtkDataSet* at_grid, const char* name) {
+  vtkDataArray* const array = at_grid->GetPointData()->GetArray(name);
   std::vector<double> values;
   values.reserve(static_cast<std::size_t>(array->GetNumberOfTuples() * array->GetNumberOfComponents()));
   for (vtkIdType row = 0; row < array->GetNumberOfTuples(); ++row)
@@ -165,22 +265,35 @@ std::vector<double> values_of(vtkDataSet* at_grid, const std::string& name) {
   return values;
 }
 
-// In the child: grid, known, and the values of each array at the points of the grid.
+// Values whose weighted means and weights are known at the points of the grid; the plain means where the weight is 0.
+std::vector<double> ratios_of(vtkDataSet* at_grid, const char* products, const char* plain) {
+  constexpr double no_weight = 1e-9;
+  std::vector<double> values = values_of(at_grid, plain);
+  const std::vector<double> product = values_of(at_grid, products), weight = values_of(at_grid, weight_name);
+  const std::size_t components = weight.empty() ? 1 : values.size() / weight.size();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (const double by = weight[i / components]; by > no_weight)
+      values[i] = product[i] / by;
+  return values;
+}
+
+// In the child: grid, known, and velocity, head and fraction at the points of the grid.
 std::string sampled(const std::string& path, const WaterArrays& wish) {
   const Quiet quiet;
   vtkSmartPointer<vtkDataSet> data = data_of(path);
-  bool at_points = is_at_points(data, wish.velocity, "velocity", 3, path);
+  const bool velocity_at_points = is_at_points(data, wish.velocity, "velocity", 3, path);
+  bool alike = true; // all at points, or all in cells
   for (const auto& [name, field] :
        {std::pair{&wish.pressure, "pressure"}, std::pair{&wish.fraction, "fraction"}})
     if (!name->empty())
-      at_points = is_at_points(data, *name, field, 1, path) && at_points;
+      alike = is_at_points(data, *name, field, 1, path) == velocity_at_points && alike;
   const Grid grid = grid_over(data, wish, path);
-  if (!at_points) {
-    vtkNew<vtkCellDataToPointData> means;
-    means->SetInputData(data);
-    means->Update();
-    data = means->GetOutput();
-  }
+  if (!alike)
+    data = with_means(data);
+  const bool at_points = velocity_at_points || !alike;
+  data = weighted(data, at_points, wish);
+  if (!at_points)
+    data = with_means(data);
   vtkNew<vtkImageData> points;
   points->SetOrigin(grid.origin.data());
   points->SetSpacing(grid.spacing.data());
@@ -198,8 +311,9 @@ std::string sampled(const std::string& path, const WaterArrays& wish) {
   for (const double value : values_of(found, probe->GetValidPointMaskArrayName()))
     known.push_back(value > 0 ? 1 : 0);
   geom::pack(out, known);
-  for (const std::string* name : {&wish.velocity, &wish.pressure, &wish.fraction})
-    geom::pack(out, name->empty() ? std::vector<double>() : values_of(found, *name));
+  geom::pack(out, ratios_of(found, weighted_velocity, velocity_name));
+  geom::pack(out, wish.pressure.empty() ? std::vector<double>() : ratios_of(found, weighted_head, head_name));
+  geom::pack(out, wish.fraction.empty() ? std::vector<double>() : values_of(found, fraction_name));
   return out;
 }
 
@@ -248,6 +362,11 @@ WaterFiles water_files_of(const std::string& pvd) {
 WaterRecord read_water(const WaterFiles& files, const WaterArrays& wish) {
   WaterRecord record;
   record.times = files.times;
+  record.density = wish.density;
+  record.gravity = wish.gravity;
+  if (wish.same_along == 2 && !(wish.pressure.empty() && wish.fraction.empty()))
+    throw InputError("same_along", "\"z\"", "x or y beside a pressure or a fraction",
+                     "along z both change from water to air");
   double values = 0;
   for (const std::string& path : files.paths) {
     if (const std::string why = geom::why_not_regular(path); !why.empty())
@@ -283,9 +402,10 @@ WaterRecord read_water(const WaterFiles& files, const WaterArrays& wish) {
     } else if (grid.size != record.size ||
                (grid.origin - record.origin).norm() > 1e-6 * record.spacing.norm() ||
                (grid.spacing - record.spacing).norm() > 1e-6 * record.spacing.norm()) {
-      refuse(path, "its box begins at " + geom::place_text(grid.origin) + " m with " +
-                       std::to_string(points) + " points, that of the first file at " +
-                       geom::place_text(record.origin) + " m: files of one series have one place");
+      refuse(path, "its box begins at " + geom::place_text(grid.origin) + " with " + std::to_string(points) +
+                       " points, that of the first file at " + geom::place_text(record.origin) + " with " +
+                       std::to_string(record.frames[0].velocity.size()) +
+                       " points: files of one series have one place");
     }
     if (values += 8 * static_cast<double>(points); values > most_values)
       throw InputError("files", std::to_string(files.paths.size()),
@@ -293,8 +413,12 @@ WaterRecord read_water(const WaterFiles& files, const WaterArrays& wish) {
     frame.known.assign(known.begin(), known.end());
     for (std::size_t i = 0; i < points; ++i)
       frame.velocity.emplace_back(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]);
-    for (double& p : frame.pressure)
-      p *= wish.pressure_factor;
+    for (std::size_t i = 0; i < frame.pressure.size(); ++i) { // from the head, at heights of the file
+      const std::size_t k =
+          i / (static_cast<std::size_t>(grid.size[0]) * static_cast<std::size_t>(grid.size[1]));
+      const double z = grid.origin.z() - wish.shift.z() + static_cast<double>(k) * grid.spacing.z();
+      frame.pressure[i] = known[i] > 0 ? frame.pressure[i] - wish.density * wish.gravity * z : 0;
+    }
     record.frames.push_back(std::move(frame));
   }
   return record;

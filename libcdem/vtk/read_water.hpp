@@ -1,5 +1,9 @@
 // Water from the files of other programs (OpenFOAM's foamToVTK, DualSPHysics, ...) on a regular grid: .vti, .vtu, .vts, .vtr
 // and legacy .vtk. Each file is read in a child process under limits.
+//
+// Values of cells become values at points as means, and values at points become values of the grid by interpolation. With a
+// water fraction a, cells and points count by max(0, 2 a - 1): the wind over the water adds nothing. The pressure goes this way
+// as the head p + rho g z. Beside a bed, where means are one-sided, still water is therefore exact on any mesh.
 #pragma once
 
 #include "libcdem/water/recorded_water.hpp"
@@ -24,10 +28,11 @@ struct WaterArrays {
   double pressure_factor = 1;     // Pa in a unit of the file
   double cell = 0;                // m, of the grid; 0: of an image its own, else the mean size of the cells
   int same_along = -1;            // axis along which the water is the same everywhere; -1: none
-  geom::Vec3 shift = geom::Vec3::Zero(); // m, added to the coordinates
+  double density = 1025, gravity = standard_water_gravity; // kg/m3, m/s2
+  geom::Vec3 shift = geom::Vec3::Zero();                   // m, added to the coordinates
 };
 
-// Grid, times and frames of a record. Throws geom::InputError, which names the file, for one that VTK cannot read, an array
+// A whole record but for its level. Throws geom::InputError, which names the file, for one that VTK cannot read, an array
 // that is not there or has nan, and a grid that is not that of the first file.
 WaterRecord read_water(const WaterFiles&, const WaterArrays&);
 

@@ -69,13 +69,14 @@ IrregularSea::IrregularSea(const SeaGiven& g) : given_(g) {
 
 WaterPoint IrregularSea::at(const geom::Vec3& place, double time) const {
   const double s = (place - given_.origin).dot(along_), d = given_.depth;
-  double eta = 0;
+  double eta = 0, slope = 0;
   std::vector<std::array<double, 2>> turns; // a cos, a sin
   turns.reserve(components_.size());
   for (const Component& c : components_) {
     const double angle = turned(c.wave_number * s - turned(c.omega * time) + c.phase);
     turns.push_back({c.amplitude * exact::cos(angle), c.amplitude * exact::sin(angle)});
     eta += turns.back()[0];
+    slope -= c.wave_number * turns.back()[1];
   }
   WaterPoint point;
   point.surface = given_.level + eta;
@@ -96,6 +97,9 @@ WaterPoint IrregularSea::at(const geom::Vec3& place, double time) const {
   }
   point.velocity = u * along_ + w * geom::Vec3::UnitZ();
   point.acceleration = ax * along_ + az * geom::Vec3::UnitZ();
+  point.surface_slope = slope * along_;
+  point.pressure_gradient =
+      given_.density * (-given_.gravity * geom::Vec3::UnitZ() - point.acceleration); // Euler's equation
   if (place.z() <= point.surface)
     point.pressure = given_.density * given_.gravity * std::max(0.0, head);
   return point;

@@ -34,6 +34,7 @@ public:
   explicit IrregularSea(const SeaGiven&); // throws geom::InputError
   WaterPoint at(const geom::Vec3& place, double time) const override;
   double density() const override { return given_.density; }
+  double gravity() const override { return given_.gravity; }
   bool has_dynamic_pressure() const override { return true; }
   bool has_pressure() const override { return true; }
   std::optional<FlatBed> flat_bed() const override {

@@ -19,9 +19,9 @@ struct UniformWater {
 };
 std::shared_ptr<const WaterField> uniform_water(const UniformWater&);
 
-// Any member but the velocity may be empty. Without a pressure it is hydrostatic under the surface, as in long waves, and
-// thereby that of the motion too; without a surface either there is none. Without an acceleration it is the derivative of the velocity along the path of
-// a particle, by differences over 1e-4 s and 1e-4 m.
+// Any member but the velocity may be empty. Without a pressure it is hydrostatic under the surface; without a surface either
+// there is none. Without an acceleration it is the derivative of the velocity along the path of a particle. All derivatives
+// are differences over 1e-4 s and 1e-4 m, so the functions are called as far beyond a place.
 struct FunctionWater {
   std::function<geom::Vec3(const geom::Vec3&place, double time)> velocity, acceleration; // m/s, m/s2
   std::function<double(const geom::Vec3& place, double time)> pressure;                  // Pa

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double dry = -std::numeric_limits<double>::infinity();
 constexpr int filled_layers = 3; // of grid points outside of the cells, from the cells on
+constexpr double no_air = 1e-9;  // share of air where water has its water fraction
 
 void check_record(const WaterRecord& r) {
   geom::require_positive("density", r.density, "kg/m3");
@@ -40,10 +41,11 @@ RecordedWater::RecordedWater(WaterRecord record) : record_(std::move(record)) {
   with_surface_ = with_fraction || record_.level;
   for (std::size_t frame = 0; frame < record_.frames.size(); ++frame) {
     fill_unknown(record_.frames[frame]);
-    if (with_fraction)
-      find_surface(frame);
-    else
-      surface_.emplace_back(columns(), record_.level.value_or(std::numeric_limits<double>::infinity()));
+    const double level = record_.level.value_or(std::numeric_limits<double>::infinity());
+    std::vector<Layers>& layers = layers_.emplace_back(columns(), Layers{{dry, level}});
+    for (int j = 0; with_fraction && j < record_.size[1]; ++j)
+      for (int i = 0; i < record_.size[0]; ++i)
+        layers[number(i, j, 0)] = find_layers(record_.frames[frame], i, j);
   }
   find_accelerations();
 }
@@ -55,7 +57,9 @@ std::size_t RecordedWater::number(int i, int j, int k) const {
               static_cast<std::size_t>(record_.size[1]) * static_cast<std::size_t>(k));
 }
 
-// The mean of known neighbours along the axes, a layer of points at a time; what is farther away stays at rest, and dry.
+// The mean of known neighbours along the axes, a layer of points at a time; what is farther away stays at rest, and dry. Water
+// counts and air does not. The pressure of a neighbour is brought to the height of the point first, so that still water stays
+// what it is beside a bed.
 void RecordedWater::fill_unknown(WaterFrame& f) const {
   if (f.known.empty())
     return;
@@ -70,7 +74,7 @@ void RecordedWater::fill_unknown(WaterFrame& f) const {
             continue;
           int count = 0;
           geom::Vec3 velocity = geom::Vec3::Zero();
-          double pressure = 0, fraction = 0;
+          double pressure = 0, fraction = 0, shares = 0;
           for (const auto& [a, b, c] : {std::array<int, 3>{i - 1, j, k},
                                         {i + 1, j, k},
                                         {i, j - 1, k},
@@ -80,47 +84,62 @@ void RecordedWater::fill_unknown(WaterFrame& f) const {
             if (a < 0 || b < 0 || c < 0 || a >= n[0] || b >= n[1] || c >= n[2] || !known[number(a, b, c)])
               continue;
             const std::size_t next = number(a, b, c);
+            const double share = f.fraction.empty() ? 1 : std::max(no_air, f.fraction[next]);
             ++count;
-            velocity += f.velocity[next];
-            pressure += f.pressure.empty() ? 0 : f.pressure[next];
+            shares += share;
+            velocity += share * f.velocity[next];
+            if (!f.pressure.empty())
+              pressure += share * (f.pressure[next] + weight() * (c - k) * record_.spacing.z());
             fraction += f.fraction.empty() ? 0 : f.fraction[next];
           }
           if (count == 0)
             continue;
           f.known[here] = 1;
-          f.velocity[here] = velocity / count;
+          f.velocity[here] = velocity / shares;
           if (!f.pressure.empty())
-            f.pressure[here] = pressure / count;
+            f.pressure[here] = pressure / shares;
           if (!f.fraction.empty())
             f.fraction[here] = fraction / count;
         }
   }
 }
 
-// And what goes on above it.
-void RecordedWater::find_surface(std::size_t frame) {
-  WaterFrame& f = record_.frames[frame];
-  const auto& n = record_.size;
-  std::vector<double>& surface = surface_.emplace_back(columns(), dry);
-  for (int j = 0; j < n[1]; ++j)
-    for (int i = 0; i < n[0]; ++i) {
-      int top = n[2] - 1; // the highest point in water
-      while (top >= 0 && !(f.fraction[number(i, j, top)] >= 0.5))
-        --top;
-      if (top < 0)
-        continue;
-      const double below = f.fraction[number(i, j, top)];
-      double z = record_.origin.z() + top * record_.spacing.z();
-      if (top + 1 < n[2])
-        z += (below - 0.5) / (below - f.fraction[number(i, j, top + 1)]) * record_.spacing.z();
-      surface[number(i, j, 0)] = z;
-      for (int k = top + 1; k < n[2]; ++k) {
-        f.velocity[number(i, j, k)] = f.velocity[number(i, j, top)];
-        if (with_pressure_)
-          f.pressure[number(i, j, k)] =
-              record_.density * record_.gravity * (z - record_.origin.z() - k * record_.spacing.z());
-      }
+// From the water fraction; and what goes on above each layer, and a point below one that hangs in the air.
+RecordedWater::Layers RecordedWater::find_layers(WaterFrame& f, int i, int j) const {
+  const int points = record_.size[2];
+  const double step = record_.spacing.z(), none = dry;
+  const auto at = [&](int k) { return number(i, j, k); };
+  const auto wet = [&](int k) { return f.fraction[at(k)] >= 0.5; };
+  const auto in_air = [&](int k) {
+    return k >= 0 && k < points && !wet(k) && (f.known.empty() || f.known[at(k)]);
+  };
+  const auto height = [&](int k) { return record_.origin.z() + k * step; };
+  // From the wet point k to the dry one beside it, in steps.
+  const auto crossing = [&](int k, int beside) {
+    const double here = f.fraction[at(k)];
+    return (here - 0.5) / (here - f.fraction[at(beside)]);
+  };
+  Layers layers;
+  for (int k = 0; k < points; ++k) {
+    if (!wet(k))
+      continue;
+    const int first = k;
+    while (k + 1 < points && wet(k + 1))
+      ++k;
+    layers.push_back({in_air(first - 1) ? height(first) - crossing(first, first - 1) * step : none,
+                      height(k) + (k + 1 < points ? crossing(k, k + 1) * step : 0)});
+    if (in_air(first - 1) && (first < 2 || !wet(first - 2))) {
+      f.velocity[at(first - 1)] = f.velocity[at(first)];
+      if (with_pressure_)
+        f.pressure[at(first - 1)] = 0;
     }
+    for (int above = k + 1; above < points && !wet(above); ++above) {
+      f.velocity[at(above)] = f.velocity[at(k)];
+      if (with_pressure_)
+        f.pressure[at(above)] = weight() * (layers.back().top - height(above));
+    }
+  }
+  return layers;
 }
 
 void RecordedWater::find_accelerations() {
@@ -168,7 +187,7 @@ void RecordedWater::require_known(const geom::Vec3& place, double time) const {
                       (place.head<2>().array() > (known.max + slack).head<2>().array()).any();
   if (beside || place.z() < known.min.z() - slack.z() || !place.allFinite())
     throw geom::InputError(fmt::format(
-        "water of files at {} m: it is known from {} to {} m; shift the files or the model, or write a "
+        "water of files at {}: it is known from {} to {}; shift the files or the model, or write a "
         "larger box",
         geom::place_text(place), geom::place_text(known.min), geom::place_text(known.max)));
   const std::vector<double>& t = record_.times;
@@ -195,46 +214,63 @@ std::array<RecordedWater::Corner, 8> RecordedWater::corners(const geom::Vec3& pl
   std::array<Corner, 8> all;
   for (int c = 0; c < 8; ++c) {
     std::array<int, 3> at{};
-    double share = 1;
+    geom::Vec3 share, rise = geom::Vec3::Zero(); // of the corner along each axis; 1/m
     for (int axis = 0; axis < 3; ++axis) {
       const bool upper = (c >> axis) & 1;
       at[axis] = upper ? high[axis] : low[axis];
-      share *= upper ? part[axis] : 1 - part[axis];
+      share[axis] = upper ? part[axis] : 1 - part[axis];
+      if (record_.size[axis] > 1)
+        rise[axis] = (upper ? 1 : -1) / record_.spacing[axis];
     }
-    all[c] = {number(at[0], at[1], at[2]), number(at[0], at[1], 0), share};
+    all[c] = {number(at[0], at[1], at[2]), number(at[0], at[1], 0), share.prod(),
+              geom::Vec3(rise[0] * share[1] * share[2], share[0] * rise[1] * share[2],
+                         share[0] * share[1] * rise[2])};
   }
   return all;
 }
 
 RecordedWater::Here RecordedWater::in_frame(std::size_t frame, const geom::Vec3& place) const {
   const WaterFrame& f = record_.frames[frame];
-  // The surface first: between wet columns, as far as the nearest column is wet.
+  // The layer first: that of the nearest column, between it and those of other columns that meet it.
   Here here;
-  double wet = 0, most = -1;
-  bool nearest_is_wet = false;
-  double surface = 0;
   const std::array<Corner, 8> over_bed = corners({place.x(), place.y(), record_.origin.z()});
-  for (const Corner& c : over_bed) {
-    const double z = surface_[frame][c.column];
-    if (c.share > most) {
-      most = c.share;
-      nearest_is_wet = z > dry;
+  const Corner& nearest = *std::max_element(
+      over_bed.begin(), over_bed.end(), [](const Corner& a, const Corner& b) { return a.share < b.share; });
+  for (const Layer& layer : layers_[frame][nearest.column])
+    if (!here.wet || layer.bottom <= place.z()) {
+      here.layer = layer;
+      here.wet = layer.bottom <= place.z();
     }
-    if (z > dry && c.share > 0) {
-      surface += c.share * z;
-      wet += c.share;
-    }
-  }
-  here.surface = nearest_is_wet ? surface / wet : dry;
-  if (!nearest_is_wet)
+  if (!here.wet)
     return here;
+  double wet = 0, surface = 0;
+  geom::Vec3 wet_gradient = geom::Vec3::Zero(), surface_gradient = geom::Vec3::Zero();
+  for (const Corner& c : over_bed) {
+    const Layers& layers = layers_[frame][c.column];
+    const auto layer = std::find_if(layers.rbegin(), layers.rend(),
+                                    [&](const Layer& other) { return other.meets(here.layer); });
+    if (layer == layers.rend())
+      continue;
+    wet += c.share;
+    surface += c.share * layer->top;
+    wet_gradient += c.share_gradient;
+    surface_gradient += c.share_gradient * layer->top;
+  }
+  WaterPoint& water = here.water;
+  if (std::isfinite(here.layer.top)) {
+    here.layer.top = surface / wet;
+    water.surface_slope = (surface_gradient - here.layer.top * wet_gradient) / wet;
+    water.surface_slope.z() = 0;
+  }
   geom::Vec3 x = place;
-  x.z() = std::min(x.z(), here.surface);
+  x.z() = std::min(x.z(), here.layer.top);
   for (const Corner& c : corners(x)) {
-    here.velocity += c.share * f.velocity[c.point];
-    here.acceleration += c.share * acceleration_[frame][c.point];
-    if (with_pressure_)
-      here.pressure += c.share * f.pressure[c.point];
+    water.velocity += c.share * f.velocity[c.point];
+    water.acceleration += c.share * acceleration_[frame][c.point];
+    if (with_pressure_) {
+      water.pressure += c.share * f.pressure[c.point];
+      water.pressure_gradient += c.share_gradient * f.pressure[c.point];
+    }
   }
   return here;
 }
@@ -245,26 +281,33 @@ WaterPoint RecordedWater::at(const geom::Vec3& place, double time) const {
   const auto next = std::upper_bound(t.begin() + 1, t.end() - (t.size() > 1 ? 1 : 0), time);
   const std::size_t second = t.size() > 1 ? static_cast<std::size_t>(next - t.begin()) : 0;
   const std::size_t first = second > 0 ? second - 1 : 0;
-  const double part = second > first ? std::clamp((time - t[first]) / (t[second] - t[first]), 0.0, 1.0) : 0.0;
+  double part = second > first ? std::clamp((time - t[first]) / (t[second] - t[first]), 0.0, 1.0) : 0.0;
   Here a = in_frame(first, place), b = second > first ? in_frame(second, place) : a;
-  if (!(a.surface > dry)) // one of them is dry: the nearer in time
-    a.surface = part < 0.5 ? dry : b.surface;
-  if (!(b.surface > dry))
-    b.surface = part < 0.5 ? a.surface : dry;
-  WaterPoint point;
-  point.surface = std::isfinite(a.surface) && std::isfinite(b.surface)
-                      ? a.surface + part * (b.surface - a.surface)
-                      : (part < 0.5 ? a.surface : b.surface);
-  if (!(point.surface > dry))
-    return point;
-  point.velocity = a.velocity + part * (b.velocity - a.velocity);
-  point.acceleration = a.acceleration + part * (b.acceleration - a.acceleration);
-  if (place.z() <= point.surface) {
-    if (with_pressure_)
-      point.pressure = a.pressure + part * (b.pressure - a.pressure);
-    else if (with_surface_)
-      point.pressure = record_.density * record_.gravity * (point.surface - place.z());
+  if (!a.wet || !b.wet ||
+      !a.layer.meets(b.layer)) { // one of them is dry, or has another layer: the nearer in time
+    a = part < 0.5 ? a : b;
+    b = a;
+    part = 0;
   }
+  WaterPoint point;
+  point.surface = dry;
+  if (!a.wet)
+    return point;
+  const auto mix = [part](const auto& early, const auto& late) {
+    return std::decay_t<decltype(early)>(early + part * (late - early));
+  };
+  point.surface = std::isfinite(a.layer.top) ? mix(a.layer.top, b.layer.top) : a.layer.top;
+  point.velocity = mix(a.water.velocity, b.water.velocity);
+  point.acceleration = mix(a.water.acceleration, b.water.acceleration);
+  point.surface_slope = mix(a.water.surface_slope, b.water.surface_slope);
+  if (with_pressure_)
+    point.pressure_gradient = mix(a.water.pressure_gradient, b.water.pressure_gradient);
+  else if (with_surface_)
+    point.pressure_gradient = weight() * (point.surface_slope - geom::Vec3::UnitZ());
+  if (place.z() <= point.surface)
+    point.pressure = with_pressure_  ? mix(a.water.pressure, b.water.pressure)
+                     : with_surface_ ? weight() * (point.surface - place.z())
+                                     : 0;
   return point;
 }
 

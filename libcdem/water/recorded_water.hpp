@@ -1,8 +1,9 @@
 // Water that another program has computed: velocity, pressure and water fraction on a regular grid at some times.
 //
-// Between grid points all is linear, and so it is in time. The free surface of a column of the grid is the highest place
-// where the water fraction crosses 1/2. Above it velocities go on as they are below, and the pressure falls by rho g, so that
-// cells that the surface crosses are not mixed with air. The acceleration Du/Dt comes from differences of the velocities
+// Between grid points all is linear, and so it is in time. A column of the grid is wet where the water fraction is at least
+// 1/2, which may be in several layers, such as a pool under a jet. The free surface at a place is the top of the layer that
+// holds it, or of the next one below. Above a layer velocities go on as they are below, and the pressure falls by rho g, so
+// that cells that the surface crosses are not mixed with air. The acceleration Du/Dt comes from differences of the velocities
 // between grid points and times. Pressures are those of the motion too, or hydrostatic below the surface where none is given.
 #pragma once
 
@@ -37,7 +38,8 @@ public:
   // Throws geom::InputError beside or below the grid, and before its first or after its last time.
   WaterPoint at(const geom::Vec3& place, double time) const override;
   double density() const override { return record_.density; }
-  bool has_dynamic_pressure() const override { return has_pressure(); }
+  double gravity() const override { return record_.gravity; }
+  bool has_dynamic_pressure() const override { return with_pressure_; }
   bool has_pressure() const override { return with_pressure_ || with_surface_; }
 
   geom::Box box() const; // m, where it is known; infinite along an axis of one point
@@ -47,23 +49,31 @@ private:
   struct Corner {
     std::size_t point = 0, column = 0;
     double share = 0;
+    geom::Vec3 share_gradient = geom::Vec3::Zero(); // 1/m
   };
+  struct Layer { // of water in a column, m; nothing is below the lowest but the bed: minus infinite
+    double bottom = 0, top = 0;
+    bool meets(const Layer& other) const { return bottom <= other.top && other.bottom <= top; }
+  };
+  using Layers = std::vector<Layer>; // upwards
   struct Here {
-    geom::Vec3 velocity = geom::Vec3::Zero(), acceleration = geom::Vec3::Zero();
-    double pressure = 0, surface = 0; // minus infinite: dry
+    WaterPoint water;
+    Layer layer;
+    bool wet = false;
   };
   std::size_t number(int i, int j, int k) const;
   std::size_t columns() const { return static_cast<std::size_t>(record_.size[0]) * record_.size[1]; }
   void fill_unknown(WaterFrame&) const;
-  void find_surface(std::size_t frame);
+  Layers find_layers(WaterFrame&, int i, int j) const;
   void find_accelerations();
   std::array<Corner, 8> corners(const geom::Vec3& place) const;
+  double weight() const { return record_.density * record_.gravity; } // N/m3
   Here in_frame(std::size_t frame, const geom::Vec3& place) const;
   void require_known(const geom::Vec3& place, double time) const;
 
   WaterRecord record_;
   bool with_pressure_ = false, with_surface_ = false;
-  std::vector<std::vector<double>> surface_;          // m, of each column at each time; minus infinite: dry
+  std::vector<std::vector<Layers>> layers_;           // of each column at each time; none: dry
   std::vector<std::vector<geom::Vec3>> acceleration_; // m/s2, at the grid points at each time
 };
 

@@ -2,6 +2,7 @@
 
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@
 namespace cdem {
 namespace {
 
-constexpr double frames_per_second = 50;
+constexpr double frames_per_second = 50, frame = 1 / frames_per_second; // s, whatever the duration
 constexpr double wet_depth = 1e-3; // of still water: thinner films neither load nor count as run-up
 
 double bed_at(const std::vector<std::array<double, 2>>& bed, double x) {
@@ -78,14 +79,13 @@ SlopeWater::SlopeWater(const SlopeGiven& given) : given_(given) {
 
 void SlopeWater::compute(ShallowWater& water) {
   const int frames = static_cast<int>(std::ceil(given_.duration * frames_per_second));
-  frame_ = given_.duration / frames;
   keep(water);
   for (int i = 0; i < frames; ++i) {
-    double left = frame_;
-    while (left > 1e-12 * frame_) {
+    double left = frame;
+    while (left > 1e-12 * frame) {
       double dt = water.longest_step();
       dt = dt >= left ? left : std::min(dt, 0.5 * left);
-      water.step((i + 1) * frame_ - left, dt);
+      water.step((i + 1) * frame - left, dt);
       left -= dt;
     }
     keep(water);
@@ -138,7 +138,13 @@ WaterPoint SlopeWater::at(const geom::Vec3& place, double time) const {
                     "duration",
                     time, given_.duration));
   const double s = (place - given_.origin).dot(along_), g = given_.gravity;
-  const double at = time / frame_;
+  const std::vector<std::array<double, 2>>& line = given_.bed;
+  if (!(s >= line.front()[0] - 1e-6 * given_.cell && s <= line.back()[0] + 1e-6 * given_.cell))
+    throw geom::InputError(fmt::format(
+        "water on the slope at {}, {:g} m along its bed: it is known from {:g} to {:g} m; let the bed go "
+        "on beyond the bodies",
+        geom::place_text(place), s, line.front()[0], line.back()[0]));
+  const double at = time / frame;
   const std::size_t i = std::min(static_cast<std::size_t>(at), h_.size() - 2);
   const double part = std::min(1.0, at - static_cast<double>(i));
   const auto mix = [part](double a, double b) { return a + part * (b - a); };
@@ -157,12 +163,14 @@ WaterPoint SlopeWater::at(const geom::Vec3& place, double time) const {
   const Column al = column(i, s - d), ar = column(i, s + d), bl = column(i + 1, s - d),
                br = column(i + 1, s + d);
   const double bed_slope = (ar.bed - al.bed) / (2 * d);
-  double w_top = u * bed_slope, along = 0;
+  double w_top = u * bed_slope, along = 0, surface_slope = 0;
   if (a.wet && b.wet && al.wet && ar.wet && bl.wet && br.wet) {
-    const double surface_slope = (mix(ar.surface, br.surface) - mix(al.surface, bl.surface)) / (2 * d);
-    w_top = (b.surface - a.surface) / frame_ + u * surface_slope;
-    along = (b.u - a.u) / frame_ + u * (mix(ar.u, br.u) - mix(al.u, bl.u)) / (2 * d);
+    surface_slope = (mix(ar.surface, br.surface) - mix(al.surface, bl.surface)) / (2 * d);
+    w_top = (b.surface - a.surface) / frame + u * surface_slope;
+    along = (b.u - a.u) / frame + u * (mix(ar.u, br.u) - mix(al.u, bl.u)) / (2 * d);
   }
+  point.surface_slope = surface_slope * along_;
+  point.pressure_gradient = given_.density * g * (point.surface_slope - geom::Vec3::UnitZ());
   const double height = std::clamp(surface > bed ? (place.z() - bed) / (surface - bed) : 0.0, 0.0, 1.0);
   point.velocity = u * along_ + (u * bed_slope + height * (w_top - u * bed_slope)) * geom::Vec3::UnitZ();
   point.acceleration = along * (along_ + bed_slope * (1 - height) * geom::Vec3::UnitZ());

@@ -27,8 +27,10 @@ struct SlopeGiven {
 class SlopeWater final : public WaterField {
 public:
   explicit SlopeWater(const SlopeGiven&); // throws geom::InputError
+  // Throws geom::InputError beyond both ends of the bed, and after the duration.
   WaterPoint at(const geom::Vec3& place, double time) const override;
   double density() const override { return given_.density; }
+  double gravity() const override { return given_.gravity; }
   bool has_dynamic_pressure() const override { return true; }
   bool has_pressure() const override { return true; }
 
@@ -49,7 +51,6 @@ private:
   geom::Vec3 along_ = geom::Vec3::UnitX();
   std::vector<double> bed_;                // m, of the cells
   std::vector<std::vector<double>> h_, u_; // m, m/s, of the cells at each frame
-  double frame_ = 0;                       // s, between frames
   double run_up_ = 0, run_down_ = 0;
 };
 

@@ -54,14 +54,17 @@ double SteadyWave::length() const {
   return two_pi / wave_number;
 }
 
-double SteadyWave::height_over_bed(double theta) const {
-  double height = depth;
+SteadyWave::Surface SteadyWave::surface_at(double theta) const {
+  Surface at{depth, 0};
+  double k = 0;
   Harmonics h(theta);
   for (const double e : surface) {
     h.next();
-    height += e * h.c;
+    k += wave_number;
+    at.height += e * h.c;
+    at.slope -= k * e * h.s;
   }
-  return height;
+  return at;
 }
 
 SteadyWave::Flow SteadyWave::flow(double theta, double z) const {
@@ -99,8 +102,14 @@ double linear_wave_number(double period, double depth, double gravity, double cu
     return gravity * k * (1 - e) / (1 + e) - (own > 0 ? own * own : 0);
   };
   double low = 0, high = omega * omega / gravity;
-  while (excess(high) < 0)
-    high *= 2;
+  // Against a current the excess is positive for some wave numbers only, and for none where the current stops the waves.
+  while (excess(high) < 0) {
+    high *= current < 0 ? 1.05 : 2;
+    if (current < 0 && high > gravity / (current * current))
+      throw geom::InputError("current", fmt::format("{:g}", current),
+                             fmt::format("weaker against waves of {:g} s", period),
+                             "these cannot travel against it");
+  }
   for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
     const double middle = 0.5 * (low + high);
     (excess(middle) < 0 ? low : high) = middle;
@@ -141,12 +150,16 @@ double WaveField::period() const {
 WaterPoint WaveField::at(const geom::Vec3& place, double time) const {
   const double bed = given.level - wave.depth, c = wave.mean + given.current;
   const double theta = small_angle(wave.wave_number * ((place - given.crest_at).dot(along) - c * time));
-  const double surface = wave.height_over_bed(theta), z = std::max(0.0, std::min(place.z() - bed, surface));
+  const auto [surface, slope] = wave.surface_at(theta);
+  const double z = std::max(0.0, std::min(place.z() - bed, surface));
   const SteadyWave::Flow f = wave.flow(theta, z);
   WaterPoint point;
   point.velocity = (f.u + c) * along + f.w * geom::Vec3::UnitZ();
   point.acceleration = f.ax * along + f.az * geom::Vec3::UnitZ();
   point.surface = bed + surface;
+  point.surface_slope = slope * along;
+  point.pressure_gradient =
+      given.density * (-given.gravity * geom::Vec3::UnitZ() - point.acceleration); // Euler's equation
   if (place.z() <= point.surface)
     point.pressure = given.density * std::max(0.0, wave.bernoulli - given.gravity * (place.z() - bed) -
                                                        0.5 * (f.u * f.u + f.w * f.w));

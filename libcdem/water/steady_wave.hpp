@@ -39,7 +39,10 @@ struct SteadyWave {
   std::vector<double> potential;                  // B_j, m2/s
 
   double length() const;
-  double height_over_bed(double theta) const; // m, of the free surface
+  struct Surface {
+    double height = 0, slope = 0; // m over the bed; rise along the direction of travel
+  };
+  Surface surface_at(double theta) const;
   struct Flow {
     double u = 0, w = 0;   // m/s, in the frame of the crest
     double ax = 0, az = 0; // m/s2, of the particles
@@ -60,6 +63,7 @@ struct WaveField final : WaterField {
   explicit WaveField(const WaveGiven&);
   WaterPoint at(const geom::Vec3& place, double time) const override;
   double density() const override { return given.density; }
+  double gravity() const override { return given.gravity; }
   bool has_dynamic_pressure() const override { return true; }
   bool has_pressure() const override { return true; }
   std::optional<FlatBed> flat_bed() const override { return FlatBed{given.level - given.depth, given.level}; }

@@ -18,6 +18,10 @@ struct WaterPoint {
   double pressure = 0;                          // Pa above that of the air
   // m, z of the free surface; infinite: water everywhere; minus infinite: the place is dry
   double surface = std::numeric_limits<double>::infinity();
+  // How the pressure of the water and the height of its surface change from here on, so that a body that moves between two
+  // looks at the field meets them where it is. Above the free surface the gradient is that at the surface below.
+  geom::Vec3 pressure_gradient = geom::Vec3::Zero(); // Pa/m
+  geom::Vec3 surface_slope = geom::Vec3::Zero();     // rise of the surface along x and y; z: 0
 };
 
 // The bed that waves which keep their shape are made for.
@@ -31,8 +35,10 @@ public:
   // Throws geom::InputError where the field is not known at this time.
   virtual WaterPoint at(const geom::Vec3& place, double time) const = 0;
   virtual double density() const = 0; // kg/m3
+  virtual double gravity() const = 0; // m/s2, along -z; the weight of the water
   // Whether the pressure is that of the motion too: its integral over faces then holds the force that accelerated water
-  // puts on a body at rest (Froude-Krylov). Otherwise it is hydrostatic or 0, and density x volume x acceleration is added.
+  // puts on a body at rest (Froude-Krylov). Otherwise it is hydrostatic below the surface, or 0 without one: loads add
+  // density x volume x (acceleration + gravity x slope of the surface), which is what the pressure leaves out.
   virtual bool has_dynamic_pressure() const = 0;
   virtual bool has_pressure() const = 0; // false: no buoyancy comes from it
   virtual std::optional<FlatBed> flat_bed() const { return {}; }

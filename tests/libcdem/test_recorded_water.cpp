@@ -164,3 +164,57 @@ TEST_CASE("a place inside a solid has the water beside it, and a dry column none
   CHECK(water.at({1.5, 0, 2}, 0).surface == Approx(2.5));
   CHECK(water.at({5, 0, 1}, 0).surface < -1e300);
 }
+
+TEST_CASE("a jet over air over a pool is two layers of water, with air between them", "[water]") {
+  cdem::WaterRecord r;
+  r.size = {9, 1, 13};
+  r.spacing = {0.5, 1, 0.25};
+  r.times = {0};
+  cdem::WaterFrame& f = r.frames.emplace_back();
+  for (int k = 0; k < 13; ++k)
+    for (int i = 0; i < 9; ++i) {
+      const bool pool = k <= 4, jet = k >= 8 && k <= 9; // 0 to 1 m; 2 to 2.25 m
+      f.velocity.emplace_back(pool ? 1 : jet ? 3 : 20, 0, 0);
+      f.pressure.push_back(pool ? 1025 * 9.81 * (1.125 - 0.25 * k) : 0);
+      f.fraction.push_back(pool || jet ? 1 : 0);
+    }
+  const auto water = std::make_shared<cdem::RecordedWater>(std::move(r));
+  CHECK(water->at({2, 0, 0.5}, 0).surface == Approx(1.125));
+  CHECK(water->at({2, 0, 0.5}, 0).pressure == Approx(1025 * 9.81 * 0.625));
+  const cdem::WaterPoint air = water->at({2, 0, 1.6}, 0), jet = water->at({2, 0, 2.1}, 0);
+  CHECK(air.surface == Approx(1.125)); // 0.475 m under the air
+  CHECK(air.pressure == 0);
+  CHECK(jet.surface == Approx(2.375));
+  CHECK(jet.velocity.x() == Approx(3));
+  CHECK(water->at({2, 0, 1.9}, 0).velocity.x() == Approx(3)); // just inside, below its lowest point
+  CHECK(std::abs(jet.pressure) < 1025 * 9.81 * 0.25);
+  geom::TetMesh mesh = geom::box_mesh({0.3, 0.3, 0.3}, {2, 2, 2});
+  for (Vec3& x : mesh.nodes)
+    x += Vec3(1.8, 0, 1.3);
+  System s(build({meshed("unit", mesh)})); // in the air between them
+  cdem::Flow flow;
+  flow.water = water;
+  s.conditions.flows = {flow};
+  cdem::ResolvedConditions conditions = cdem::resolve(s.model, s.state, s.conditions);
+  cdem::update_external(conditions, 0, &s.state.velocity);
+  for (const auto& force : conditions.external)
+    CHECK(vec(force).norm() == 0);
+}
+
+TEST_CASE("still water goes on hydrostatic into points that the cells leave out", "[water]") {
+  cdem::WaterRecord r;
+  r.size = {5, 1, 6};
+  r.times = {0};
+  cdem::WaterFrame& f = r.frames.emplace_back();
+  for (int k = 0; k < 6; ++k)
+    for (int i = 0; i < 5; ++i) {
+      const bool bed = k < i / 2 + 1;
+      f.known.push_back(!bed);
+      f.velocity.emplace_back(Vec3::Zero());
+      f.pressure.push_back(bed ? 0 : 1025 * 9.81 * std::max(0.0, 4.5 - k));
+      f.fraction.push_back(!bed && k < 4.5 ? 1 : 0);
+    }
+  const cdem::RecordedWater water(std::move(r));
+  for (const Vec3& x : {Vec3(0, 0, 0.3), Vec3(1.7, 0, 1.2), Vec3(3.6, 0, 2.4)})
+    CHECK(water.at(x, 0).pressure == Approx(1025 * 9.81 * (4.5 - x.z())));
+}

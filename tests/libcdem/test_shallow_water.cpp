@@ -172,4 +172,19 @@ TEST_CASE("the field on a slope: still water is flat, hydrostatic and at rest", 
   CHECK(point.acceleration.norm() < 1e-11);
   CHECK(std::isinf(water.at({15, 0, 3}, 0.5).surface)); // on the dry slope
   CHECK_THROWS_WITH(water.at({5, 0, 0}, 1.5), Catch::Contains("known from 0 to 1 s"));
+  for (const double beyond : {given.bed.front()[0] - 0.1, given.bed.back()[0] + 0.1})
+    CHECK_THROWS_WITH(water.at({beyond, 0, 0}, 0.5), Catch::Contains("along its bed: it is known from"));
+}
+
+TEST_CASE("the water on a slope does not depend on how long it is asked for", "[water]") {
+  cdem::SlopeGiven given = slope_of(2, 10);
+  given.cell = 0.2;
+  given.entering = [](double t) { return 0.05 * std::sin(t); };
+  given.duration = 3.011;
+  const cdem::SlopeWater longer(given);
+  given.duration = 2;
+  const cdem::SlopeWater shorter(given);
+  const cdem::WaterPoint a = longer.at({3, 0, -0.2}, 1.77), b = shorter.at({3, 0, -0.2}, 1.77);
+  CHECK(a.surface == b.surface);
+  CHECK(a.velocity == b.velocity);
 }

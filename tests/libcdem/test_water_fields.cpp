@@ -40,7 +40,43 @@ void check_motion(const cdem::WaterField& water, const Vec3& x, double t) {
   CHECK(std::abs(divergence) < 1e-6);
 }
 
+// Of the pressure and the surface, by differences.
+void check_gradients(const cdem::WaterField& water, const Vec3& x, double t, double tolerance) {
+  const double d = 1e-4;
+  const cdem::WaterPoint here = water.at(x, t);
+  Vec3 gradient = Vec3::Zero(), slope = Vec3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 aside = d * Vec3::Unit(axis);
+    const cdem::WaterPoint a = water.at(x - aside, t), b = water.at(x + aside, t);
+    gradient[axis] = (b.pressure - a.pressure) / (2 * d);
+    slope[axis] = (b.surface - a.surface) / (2 * d);
+  }
+  CHECK((here.pressure_gradient - gradient).norm() < tolerance * water.density() * 9.81);
+  CHECK((here.surface_slope - slope).norm() < tolerance);
+}
+
 } // namespace
+
+TEST_CASE("pressure and surface change by their gradients", "[water]") {
+  cdem::WaveGiven given = wave_of(cdem::WaveTheory::stream_function, 0.1);
+  given.direction = {1, -2, 0};
+  check_gradients(cdem::WaveField(given), {0.3, 0.1, -0.2}, 0.4, 1e-6);
+  cdem::SeaGiven small;
+  small.significant_height = 0.02;
+  small.peak_period = 6;
+  small.depth = 10;
+  check_gradients(cdem::IrregularSea(small), {2, 1, -3}, 5, 1e-5);
+  cdem::FunctionWater functions;
+  functions.velocity = [](const Vec3&, double) { return Vec3(Vec3::Zero()); };
+  functions.surface = [](const Vec3& x, double t) { return 2 + 0.1 * x.x() - 0.2 * x.y() * t; };
+  check_gradients(*cdem::function_water(functions), {1, 2, 0.4}, 0.5, 1e-6);
+  functions.pressure = [](const Vec3& x, double) { return 8e3 * (2 - x.z()) + 300 * x.x() * x.y(); };
+  const auto with_pressure = cdem::function_water(functions);
+  check_gradients(*with_pressure, {1, 2, 0.4}, 0.5, 1e-6);
+  // Above the surface the gradient is that at the surface.
+  CHECK((with_pressure->at({1, 2, 3}, 0.5).pressure_gradient - Vec3(600, 300, -8e3)).norm() < 0.1);
+  CHECK(with_pressure->at({1, 2, 3}, 0.5).pressure == 0);
+}
 
 TEST_CASE("a stream function wave has the printed surface and velocity", "[water]") {
   cdem::WaveGiven given = wave_of(cdem::WaveTheory::stream_function, 0.25);
@@ -138,4 +174,12 @@ TEST_CASE("waves that cannot be are refused in one line", "[water]") {
   given = wave_of(cdem::WaveTheory::stokes, 0.1);
   given.length = 20;
   CHECK_THROWS_WITH(cdem::WaveField(given), Catch::Contains("stream_function"));
+  given = wave_of(cdem::WaveTheory::stream_function, 0.01);
+  given.length.reset();
+  given.period = 1;
+  given.current = -0.6; // waves of 1 s and 1.6 m/s travel against 0.39 m/s at most
+  CHECK_THROWS_WITH(cdem::WaveField(given),
+                    Catch::Contains("current = -0.6: must be weaker against waves of 1 s"));
+  given.current = -0.3;
+  CHECK_NOTHROW(cdem::WaveField(given));
 }

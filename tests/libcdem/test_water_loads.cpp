@@ -5,6 +5,7 @@
 #include "libcdem/water/plain_water.hpp"
 #include "libcdem/water/steady_wave.hpp"
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/core/error.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 #include "tests/libcdem/going_on.hpp"
@@ -204,6 +205,147 @@ TEST_CASE("a body sinks with its weight less buoyancy over its mass and the adde
   CHECK(cdem::energy(s.model, s.state).balance_error() < 1e-3);
 }
 
+TEST_CASE("still water gives no turn and no energy to a body that turns in it", "[water][rigid]") {
+  const bool rigid = GENERATE(false, true);
+  cdem::Elastic neutral = rock();
+  neutral.density = density;
+  System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}), {}, neutral)}));
+  const Vec3 spin(0.3, 0, 0.4), centre(0.5, 0.5, 0.5); // rad/s, m
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+    s.state.velocity[i] = node(spin.cross(s.model.node_position[i] - centre));
+  if (rigid)
+    cdem::set_rigid(s.model, s.state, {0});
+  // That of the nodes is not that of a rigid cube, whose axes turn.
+  const auto angular = [&] {
+    return rigid ? Vec3(s.state.rigid[0].angular_momentum.data()) : momentum(s, Places::present).angular;
+  };
+  const Vec3 before = angular();
+  s.conditions.gravity = gravity();
+  s.conditions.flows = {in_water(cdem::uniform_water(still(8)), 0)};
+  cdem::RunOptions options;
+  options.duration = rigid ? 4 : 0.1;
+  options.time_step = rigid ? 1e-3 : 0;
+  s.run(options);
+  CHECK((angular() - before).norm() < (rigid ? 1e-9 : 1e-4) * before.norm());
+  if (rigid)
+    CHECK(cdem::energy(s.model, s.state).kinetic ==
+          Approx(0.5 * density / 6 * spin.squaredNorm()).epsilon(1e-9)); // of a cube of 1 m
+}
+
+TEST_CASE("a body that floats heaves with the period of its water line, and no higher than it began",
+          "[water][rigid]") {
+  const double draught = 0.2, height = 0.4, offset = 0.03;
+  const double ca = GENERATE(0.0, 0.5);
+  cdem::Elastic light = rock();
+  light.density = 0.5 * density;
+  System s(build({meshed("raft", geom::box_mesh({1.2, 0.8, height}, {3, 2, 2}), {}, light)}));
+  cdem::set_rigid(s.model, s.state, {0});
+  s.conditions.gravity = gravity();
+  s.conditions.flows = {in_water(cdem::uniform_water(still(draught + offset)), 0, ca)};
+  const double period = 2 * pi * std::sqrt((1 + ca) * draught / 9.81); // of the draught at rest
+  cdem::RunOptions options;
+  options.time_step = 1e-3;
+  options.duration = 6 * period;
+  double highest_first = 0, highest_last = 0; // m, over the place of rest
+  options.callback = [&] {
+    const double z = std::abs(s.state.displacement[0].z - offset);
+    double& highest = s.state.time < period ? highest_first : highest_last;
+    if (s.state.time < period || s.state.time > 5 * period)
+      highest = std::max(highest, z);
+  };
+  options.callback_every = 1;
+  s.run(options);
+  CHECK(highest_first == Approx(offset).epsilon(ca > 0 ? 0.1 : 0.01));
+  CHECK(highest_last < (ca > 0 ? 1.02 : 1.0001) * highest_first);
+  if (ca == 0) // after whole periods it is where it began
+    CHECK(std::abs(s.state.displacement[0].z) < 0.01 * offset);
+}
+
+TEST_CASE("the added mass of a body that floats is that of its wet volume, for any mesh", "[water]") {
+  const int divisions = GENERATE(1, 2, 3);
+  System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {divisions, divisions, divisions}))}));
+  for (const double angle : {0.0, 35.0})
+    for (const double level : {0.1, 0.45, 0.8}) {
+      const geom::Mat3 turn = rotation({1, -2, 0.5}, angle * degree);
+      geom::Polyhedron box = geom::grid({1, 1, 1}, {1, 1, 1}).blocks.at(0);
+      for (std::size_t i = 0; i < s.state.displacement.size(); ++i)
+        s.state.displacement[i] = node(turn * s.model.node_position[i] - s.model.node_position[i]);
+      for (Vec3& x : box.vertices)
+        x = turn * x;
+      const double wet = geom::mass_properties(geom::cut(box, {Vec3::UnitZ(), level}).below->shape).volume;
+      cdem::UniformWater water = still(level);
+      water.velocity = [](double t) { return Vec3(0.3 * t, 0, 0); };
+      s.conditions.flows = {in_water(cdem::uniform_water(water), 0, 0.7)};
+      const cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
+      double mass = 0;
+      for (const double m : r.water_mass)
+        mass += m;
+      CHECK(mass == Approx(0.7 * density * wet).epsilon(1e-12));
+      CHECK(wrench(s).force.x() == Approx(1.7 * density * wet * 0.3).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("a surface without a pressure leaves out no force of accelerated water, and counts none twice",
+          "[water]") {
+  cdem::WaveGiven given;
+  given.height = 2;
+  given.period = 7;
+  given.depth = 12;
+  const auto wave = std::make_shared<cdem::WaveField>(given);
+  cdem::FunctionWater surface;
+  surface.velocity = [&](const Vec3& x, double t) { return wave->at(x, t).velocity; };
+  surface.acceleration = [&](const Vec3& x, double t) { return wave->at(x, t).acceleration; };
+  surface.surface = [&](const Vec3& x, double t) { return wave->at(x, t).surface; };
+  geom::TetMesh cube = shaped(Shape::cube, 3);
+  for (Vec3& x : cube.nodes)
+    x += Vec3(3, 0, -4);
+  System s(build({meshed("unit", cube)}));
+  for (const double time : {0.0, 1.2, 2.9}) {
+    s.state.time = time;
+    s.conditions.flows = {in_water(wave, 0)};
+    const Vec3 by_pressure = wrench(s).force - weight * Vec3::UnitZ();
+    s.conditions.flows = {in_water(cdem::function_water(surface), 0)};
+    const Vec3 by_surface = wrench(s).force - weight * Vec3::UnitZ();
+    CHECK(by_pressure.norm() > 300);
+    CHECK((by_surface - by_pressure).norm() < 0.02 * by_pressure.norm());
+  }
+  // Under a level surface all of it comes from the acceleration.
+  cdem::FunctionWater level;
+  level.velocity = [](const Vec3&, double t) { return Vec3(1.5 * t, 0, 0); };
+  level.surface = [](const Vec3&, double) { return 2.0; };
+  s.conditions.flows = {in_water(cdem::function_water(level), 0)};
+  CHECK(wrench(s).force.x() == Approx(density * 1.5).epsilon(1e-6));
+}
+
+TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][flow]") {
+  geom::TetMesh full = geom::box_mesh({1.5, 1.5, 1.5}, {3, 3, 3}), hollow = full;
+  hollow.tets.clear();
+  for (const geom::Tet& tet : full.tets) {
+    Vec3 middle = Vec3::Zero();
+    for (const int node : tet)
+      middle += 0.25 * full.nodes[node];
+    if (((middle - Vec3(0.75, 0.75, 0.75)).array().abs() > 0.25).any())
+      hollow.tets.push_back(tet);
+  }
+  const auto force = [](const geom::TetMesh& mesh, std::shared_ptr<const cdem::WaterField> water) {
+    System s(build({meshed("unit", mesh)}));
+    s.conditions.flows = {in_water(std::move(water))};
+    s.state.time = 1;
+    return wrench(s).force;
+  };
+  const double volume = 1.5 * 1.5 * 1.5;
+  CHECK((force(hollow, cdem::uniform_water(still(3))) - volume * weight * Vec3::UnitZ()).norm() <
+        1e-9 * weight);
+  const Vec3 u(2, 0, 0);
+  CHECK((force(hollow, stream(u)) - force(full, stream(u))).norm() < 1e-9 * density);
+  cdem::Flow flow;
+  flow.direction = Vec3::UnitX();
+  flow.velocity = [](double) { return 2; };
+  System s(build({meshed("unit", hollow)}));
+  s.conditions.flows = {flow};
+  CHECK(wrench(s).force.x() == Approx(0.5 * density * 4 * 1.5 * 1.5));
+}
+
 TEST_CASE("a run in waves that is left and goes on ends in the same bits", "[water][resume]") {
   cdem::WaveGiven given;
   given.height = 0.4;
@@ -239,4 +381,25 @@ TEST_CASE("buoyancy may not be given twice", "[water][input]") {
   s.conditions.gravity->water_density = 1000;
   s.conditions.flows = {in_water(cdem::uniform_water(still(0.5)))};
   CHECK_THROWS_WITH(cdem::resolve(s.model, s.state, s.conditions), Catch::Contains("buoyancy already"));
+}
+
+TEST_CASE("bodies and the water that carries them have one gravity", "[water][input]") {
+  System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))}));
+  const auto error = [&](const Vec3& acceleration, double of_water) {
+    cdem::UniformWater water = still(0.5);
+    water.gravity = of_water;
+    s.conditions.gravity = gravity(acceleration);
+    s.conditions.flows = {in_water(cdem::uniform_water(water))};
+    try {
+      cdem::resolve(s.model, s.state, s.conditions);
+    } catch (const geom::InputError& refused) {
+      return std::string(refused.what());
+    }
+    return std::string();
+  };
+  CHECK(error({0, 0, -9.80665}, 9.81).empty());
+  CHECK(error({0, 0, -1.62}, 1.62).empty());
+  CHECK_THAT(error({0, 0, -1.62}, 9.81), Catch::Contains("must be (0, 0, -9.81) m/s2"));
+  CHECK_THAT(error({0, -9.81, 0}, 9.81), Catch::Contains("gravity = {0, -9.81, 0}"));
+  CHECK_THAT(error({1, 0, -9.81}, 9.81), Catch::Contains("level in z"));
 }

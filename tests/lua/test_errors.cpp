@@ -144,3 +144,28 @@ TEST_CASE("a check tries the colours of joints and sections", "[lua]") {
   CHECK_THAT(checked(section + "'stress.zzz'"), Contains("did you mean stress.zz"));
   CHECK_THAT(checked("colour = 'slip'"), Contains("colour = \"slip\"") && Contains("add joints = true"));
 }
+
+TEST_CASE("waves enter a slope at its own level and depth, and weigh as the model does", "[lua][water]") {
+  const auto slope = [](const std::string& waves, const std::string& more) {
+    return head + "local w = cdem.water." + waves +
+           "\ncdem.water.slope{ bed = { {0, -4}, {10, -4}, {30, 6} }, " + "waves = w, duration = 2" + more +
+           " }";
+  };
+  const std::string wave = "wave{ height = 0.2, period = 6, depth = 4, level = ";
+  CHECK(error_of(slope(wave + "0 }", "")).empty());
+  CHECK_THAT(
+      error_of(slope(wave + "1 }", "")),
+      Contains("case.lua:3: cdem.water.slope: waves = 4 m deep with still water at z = 1 m: must be") &&
+          Contains("4 m and z = 0 m"));
+  CHECK_THAT(error_of(slope("sea{ significant_height = 0.2, peak_period = 6, depth = 9 }", "")),
+             Contains("waves = 9 m deep"));
+  CHECK(error_of(slope(wave + "1 }", ", level = 1")) != ""); // 5 m deep then
+  const auto weighed = [](const std::string& water) {
+    return error_of(column() + "model:gravity{ vector = {0, 0, -3.7} }\n" +
+                    "model:flow{ water = cdem.water.uniform{ velocity = {0, 0, 0}, level = 1" + water +
+                    " } }\nmodel:run{ steps = 2 }");
+  };
+  CHECK(weighed(", gravity = 3.7").empty());
+  CHECK_THAT(weighed(""), Contains("gravity = {0, 0, -3.7}: must be (0, 0, -9.81) m/s2") &&
+                              Contains("give the water the same `gravity`"));
+}

@@ -25,6 +25,10 @@ local function with(name, p)
   return drawn and not ("," .. without .. ","):find("," .. name .. ",", 1, true)
 end
 
+local function with_of_seed(name, every_so_many)
+  return seed % every_so_many == 2 and not ("," .. without .. ","):find("," .. name .. ",", 1, true)
+end
+
 local function text(x) return string.format("%.17g", x) end
 -- What does not fit together is refused, which is as good an answer as any, if it is the same in every way.
 local function try(what, act)
@@ -126,6 +130,15 @@ for i = 1, count do
   end
 end
 if with("water", 0.15) then try("water", function() model:water{ level = 0.15 } end) end
+-- Drawn from the seed alone, so that the other features stay what they are.
+if with_of_seed("waves", 4) then
+  model:gravity{ vector = { 0, 0, -9.81 } }
+  local water = seed % 3 == 0 and cdem.water.uniform{ velocity = { 0.5, 0.2, 0 }, level = 0.2 }
+    or cdem.water.wave{ height = 0.2, period = 1.5, depth = 1.5, level = 0.25 }
+  for i = 1, count do
+    try("waves", function() model:flow{ on = "b" .. i, water = water, drag = 1, added_mass = seed % 2 == 0 and 0.5 or 0 } end)
+  end
+end
 if with("probe", 0.3) then
   try("probe", function() model:probe{ name = "stress", field = "stress.zz", at = { 0, 0, -0.1 } } end)
 end

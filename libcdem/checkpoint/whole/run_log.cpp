@@ -79,6 +79,16 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
       all_below("restart.flows", std::array{node}, model.node_position.size());
     for (const FlowCorner& corner : flow.corners)
       all_below("restart.flows", std::array{corner.node}, model.node_position.size());
+    for (const AskedWater& asked : flow.asked) {
+      all_below("restart.flows", std::array{asked.block}, model.blocks.size());
+      const Block& block = model.blocks[asked.block];
+      require(asked.first_node == block.node_begin, "restart.flows", asked.first_node);
+      require_length("restart.flows", asked.nodes.size(),
+                     static_cast<std::size_t>(block.node_end - block.node_begin));
+      for (const geom::Triangle& triangle : asked.opened)
+        for (const int node : triangle)
+          require(node >= block.node_begin && node < block.node_end, "restart.flows", node);
+    }
     require(flow.corners.size() <= flow.forces.size(), "restart.flows", count(flow.corners.size()));
   }
   length("restart.water_mass", point.flows.water_mass.size(), model.node_position.size());

@@ -31,6 +31,9 @@ std::shared_ptr<WaterObject> holding(std::shared_ptr<const WaterField> field, st
 Field density_of_water() {
   return water_density_field("density").standard(1025.0).doc("sea water by default");
 }
+Field gravity_of_water() {
+  return number("gravity", "m/s2").above(0).standard().doc("along -z, the weight of the water");
+}
 Field direction_field() {
   return vec3("direction").standard().doc("of travel, horizontal");
 }
@@ -52,7 +55,8 @@ const Record<WaveGiven> wave_given{
      {vec3("crest_at", "m").standard().doc("where a crest stands at time 0"), &WaveGiven::crest_at},
      {number("current", "m/s").standard().doc("along the direction, mean under water"), &WaveGiven::current},
      {integer("order").within(3, 50).standard().doc("of the stream function"), &WaveGiven::order},
-     {density_of_water(), &WaveGiven::density}}};
+     {density_of_water(), &WaveGiven::density},
+     {gravity_of_water(), &WaveGiven::gravity}}};
 
 const Record<SeaGiven> sea_given{
     {{number("significant_height", "m").above(0).required(), &SeaGiven::significant_height},
@@ -65,7 +69,8 @@ const Record<SeaGiven> sea_given{
      {vec3("origin", "m").standard(), &SeaGiven::origin},
      {integer("components").within(10, 10000).standard(), &SeaGiven::components},
      {integer("seed").at_least(0).standard(), &SeaGiven::seed},
-     {density_of_water(), &SeaGiven::density}}};
+     {density_of_water(), &SeaGiven::density},
+     {gravity_of_water(), &SeaGiven::gravity}}};
 
 const Record<SlopeGiven> slope_given{
     {{list("bed", tuple_type({number_type(), number_type()}), 2)
@@ -74,8 +79,8 @@ const Record<SlopeGiven> slope_given{
       &SlopeGiven::bed},
      {object_or_function("waves", "Water", "(time: number): number")
           .required()
-          .doc("that enter over the first point: waves of the same level, or the height over still water "
-               "(m)")},
+          .doc("that enter over the first point: waves of its level and depth, or the height over still "
+               "water (m)")},
      {number("duration", "s").above(0).required().doc("a run may not go on beyond it"),
       &SlopeGiven::duration},
      {level_field(), &SlopeGiven::level},
@@ -88,7 +93,8 @@ const Record<SlopeGiven> slope_given{
       &SlopeGiven::friction},
      {direction_field(), &SlopeGiven::direction},
      {vec3("origin", "m").standard(), &SlopeGiven::origin},
-     {density_of_water(), &SlopeGiven::density}}};
+     {density_of_water(), &SlopeGiven::density},
+     {gravity_of_water(), &SlopeGiven::gravity}}};
 
 const Record<WaterArrays> water_arrays{
     {{text("velocity").standard("U").doc("name of the array (m/s, three components), at points or in cells"),
@@ -112,7 +118,9 @@ const Record<WaterArrays> water_arrays{
       &WaterArrays::cell},
      {choice("same_along", {"x", "y", "z"})
           .doc("the water is the same all along this axis, as in a flume of one cell")},
-     {vec3("shift", "m").standard().doc("is added to the coordinates"), &WaterArrays::shift}}};
+     {vec3("shift", "m").standard().doc("is added to the coordinates"), &WaterArrays::shift},
+     {density_of_water(), &WaterArrays::density},
+     {gravity_of_water(), &WaterArrays::gravity}}};
 
 const Record<UniformWater> uniform_record{
     {{vec3_or_function("velocity", "(time: number): number[]").unit("m/s").required(),
@@ -121,7 +129,8 @@ const Record<UniformWater> uniform_record{
           .doc("z of the free surface, below which the pressure is hydrostatic; left out: water everywhere, "
                "no buoyancy"),
       &UniformWater::level},
-     {density_of_water(), &UniformWater::density}}};
+     {density_of_water(), &UniformWater::density},
+     {gravity_of_water(), &UniformWater::gravity}}};
 
 const char* const in_water = "(x: number, y: number, z: number, time: number): number";
 
@@ -131,7 +140,8 @@ const Record<FunctionWater> function_record{
      {function("pressure", in_water).unit("Pa").doc("that of the motion included"), &FunctionWater::pressure},
      {function("surface", in_water).unit("m").doc("z of the free surface; water everywhere when left out"),
       &FunctionWater::surface},
-     {density_of_water(), &FunctionWater::density}}};
+     {density_of_water(), &FunctionWater::density},
+     {gravity_of_water(), &FunctionWater::gravity}}};
 
 // A slip in its functions is an error of the line that gave them; a field belongs to no model and no time yet.
 Value tried(std::shared_ptr<WaterObject> object) {
@@ -160,10 +170,26 @@ Value sea(Session&, Object*, const Arguments& a) {
                  "an irregular sea of " + number_text(given.significant_height) + " m");
 }
 
+// Waves of another level or depth would enter with the flow and the celerity of other water.
+void require_same_bed(const WaterField& waves, const SlopeGiven& slope) {
+  const std::optional<FlatBed> bed = waves.flat_bed();
+  if (!bed)
+    return;
+  const double depth = slope.level - slope.bed[0][1], rounding = 1e-6 * std::abs(depth);
+  if (std::abs(bed->level - slope.level) > rounding || std::abs(bed->level - bed->z - depth) > rounding)
+    throw InputError("waves",
+                     number_text(bed->level - bed->z) +
+                         " m deep with still water at z = " + number_text(bed->level) + " m",
+                     "those of the first point of the bed, " + number_text(depth) +
+                         " m and z = " + number_text(slope.level) + " m",
+                     "give cdem.water.wave this depth and level, or the slope a bed as deep");
+}
+
 // The waves that enter over the foot of the slope, grown from nothing over the ramp.
 std::function<double(double)> entering(const Arguments& a, const SlopeGiven& slope) {
   std::function<double(double)> height;
   if (const auto waves = a.object<WaterObject>("waves")) {
+    require_same_bed(*waves->field, slope);
     const geom::Vec3 along = geom::Vec3(slope.direction.x(), slope.direction.y(), 0).normalized();
     geom::Vec3 foot = slope.origin + slope.bed[0][0] * along;
     foot.z() = slope.level;
@@ -236,7 +262,6 @@ Value file_water(Session& session, Object*, const Arguments& a) {
     throw InputError("level: goes without fraction, whose surface is its own");
   WaterRecord record = read_water(files, wish);
   record.level = a.optional_number("level");
-  record.density = a.number("density");
   const auto made = std::make_shared<RecordedWater>(std::move(record));
   const geom::Box box = made->box();
   std::string line = "cdem.water.file: " + geom::counted(files.paths.size(), "file");
@@ -290,7 +315,8 @@ void bind_water_fields(Module& m) {
   m.add(
       "water.field",
       "Water described by functions of place and time, which are called at every node of a unit. Without a "
-      "function for the pressure, the pressure is hydrostatic below the surface. Without a function for the "
+      "function for the pressure, the pressure is hydrostatic below the surface, and what accelerated water "
+      "adds to it follows from the acceleration. Without a function for the "
       "acceleration, the acceleration follows from the velocity.",
       function_record.fields(), field, "cdem.Water");
   m.add("water.wave",
@@ -307,7 +333,7 @@ void bind_water_fields(Module& m) {
   m.add("water.slope",
         "Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along "
         "the bed and the free surface, hydrostatic pressure. A breaking wave is a bore, without jet and "
-        "without the pressure of its impact.",
+        "without the pressure of its impact. A body beyond the ends of the bed ends the run with an error.",
         slope_given.fields(), slope_water, "cdem.Water");
   m.add(
       "water.file",
@@ -322,8 +348,7 @@ void bind_water_fields(Module& m) {
           water_arrays.fields() +
           std::vector<Field>{number("time_shift", "s")
                                  .standard(0.0)
-                                 .doc("is added to the times, such as the model's time at the start"),
-                             density_of_water()},
+                                 .doc("is added to the times, such as the model's time at the start")},
       file_water, "cdem.Water");
 }
 
