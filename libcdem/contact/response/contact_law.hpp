@@ -62,7 +62,7 @@ struct ContactMotion {
   double approach = 0;                    // s of restitution: 1 the bodies approach, -1 they separate
   double acceleration = 0;                // m/s2, a of restitution
   double held_at_most = 0;                // part of the damping force that may act, part_held
-  bool in_relaxation = false; // its steps are no times, and it finds the contact at rest
+  bool in_relaxation = false;             // its steps are no times, and it finds the contact at rest
 };
 
 // What a contact loses in a step, J, >= 0.
