@@ -175,7 +175,8 @@ void StageSequence::restore(std::string_view saved, bool state_only) {
   if (ends) {
     read(a, state_at_end);
     require_fits(as_built ? of_.model : model_then, state_at_end);
-    archive(a, end_then.emplace());
+    end_then = SimulatedModel::End();
+    archive(a, *end_then);
   }
   archive(a, of_.last_residual);
   if (!as_built) {
