@@ -106,9 +106,8 @@ Eigen::Vector4d wet_part(const std::array<TetCorner, 4>& corners, double volume)
 
 // Share of the volume around each node of a block that is under water.
 std::vector<double> wet_shares(const Model& model, const Block& block, const std::vector<double>& height) {
-  std::vector<double> share;
-  for (const double h : height)
-    share.push_back(h < 0 ? 1 : 0);
+  std::vector<double> share(height.size());
+  std::transform(height.begin(), height.end(), share.begin(), [](double h) { return h < 0 ? 1.0 : 0.0; });
   if (std::count(share.begin(), share.end(), share[0]) == static_cast<std::ptrdiff_t>(share.size()))
     return share;
   std::vector<double> wet(height.size()), whole(height.size());
