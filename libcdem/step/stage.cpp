@@ -146,6 +146,7 @@ void Stage::carry_water(const std::vector<double>& water) {
   State& state = context_.state;
   if (water.empty() && state.moving_mass.empty())
     return;
+  see_whole(); // for its kinetic energy
   std::vector<double> masses = water.empty() ? std::vector<double>() : context_.model.node_mass;
   for (std::size_t i = 0; i < water.size(); ++i)
     masses[i] += water[i];

@@ -27,7 +27,7 @@ local sea = cdem.water.sea{ significant_height = 2, peak_period = 8, depth = 10,
 print(sea:at({0, 0, 0}, 100).surface)
 
 -- example: cdem.water.slope
-local surf = cdem.water.slope{ bed = { {0, -6}, {20, -6}, {44, 10} }, waves = wave, ramp = 8, duration = 20 }
+local surf = cdem.water.slope{ bed = { {0, -10}, {20, -10}, {50, 10} }, waves = wave, ramp = 8, duration = 20 }
 print(surf.run_up, surf.run_down)
 
 -- example: cdem.water.file
