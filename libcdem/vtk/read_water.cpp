@@ -116,7 +116,7 @@ bool is_at_points(vtkDataSet* data, const std::string& name, const char* field, 
   return at_points != nullptr;
 }
 
-// Of a cell with flat faces; its corners' mean where it has no volume. OpenFOAM's values of cells stand there.
+// The centroid of a cell with flat faces; its corners' mean where it has no volume. OpenFOAM's values of cells stand there.
 double centroid_height(vtkCell* cell) {
   const auto mean_of = [](vtkPoints* points) {
     geom::Vec3 sum = geom::Vec3::Zero();

@@ -61,7 +61,7 @@ TEST_CASE("viscous damping slows the spin of a body as it slows its flight", "[d
   CHECK(after.angular_momentum.z() / before.angular_momentum.z() == Approx(std::exp(-1.0)).epsilon(2e-3));
 }
 
-// What stands on a floor with restitution moves by so little that a step may turn the motion of its lightest nodes round: the
+// A body on a floor with restitution moves by so little that a step may turn the motion of its lightest nodes round: the
 // force of restitution must not feed that.
 TEST_CASE("deformable blocks that are stacked with restitution come to rest and stay there",
           "[contact][rest]") {

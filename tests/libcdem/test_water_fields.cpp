@@ -40,7 +40,7 @@ void check_motion(const cdem::WaterField& water, const Vec3& x, double t) {
   CHECK(std::abs(divergence) < 1e-6);
 }
 
-// Of the pressure and the surface, by differences.
+// The gradients of the pressure and the surface, by differences.
 void check_gradients(const cdem::WaterField& water, const Vec3& x, double t, double tolerance) {
   const double d = 1e-4;
   const cdem::WaterPoint here = water.at(x, t);
