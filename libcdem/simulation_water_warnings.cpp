@@ -42,7 +42,7 @@ void Warnings::look_for_dry_flows(double begin, double end) {
     const auto known = std::find_if(seen_flows_.begin(), seen_flows_.end(),
                                     [&](const SeenFlow& seen) { return seen.flow == key; });
     const bool is_known = known != seen_flows_.end();
-    if (!flow.water || is_gone(model_, flow.on) || (is_known && known->line.empty()))
+    if (!flow.water || is_gone(model_, flow) || (is_known && known->line.empty()))
       continue;
     std::vector<geom::Vec3> places;
     const auto add_faces = [&](const Selection& on) {

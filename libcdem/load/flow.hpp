@@ -11,7 +11,7 @@ std::vector<std::pair<int, geom::Vec3>> flow_pattern(const Model&, const State&,
 // All its faces, whichever way they look: a third of each face's area along its inward normal at its corners.
 std::vector<FlowCorner> flow_corners(const Model&, const State&, const ResolvedFlow&);
 
-// Outer faces that a flow may meet, ascending: not those of cavities that a mesh closes. Throws geom::InputError where a place has none.
+// Outer faces that a flow may meet, ascending: not those of cavities that a mesh closes.
 std::vector<int> flow_faces(const Model&, const Flow&);
 
 // The three springs of a bonded face inside a mesh are broken.

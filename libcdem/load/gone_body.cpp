@@ -19,6 +19,11 @@ bool is_gone(const Model& model, const Selection& on) {
                       [&](const Block& block) { return block.body == body; });
 }
 
+bool is_gone(const Model& model, const Flow& flow) {
+  return is_gone(model, flow.on) && std::all_of(flow.also.begin(), flow.also.end(),
+                                                [&](const Selection& on) { return is_gone(model, on); });
+}
+
 void require_places(const Model& model, const Conditions& conditions) {
   const auto require = [&](const Selection& on, const char* what, const auto& selected) {
     if (is_gone(model, on))
@@ -40,6 +45,9 @@ void require_places(const Model& model, const Conditions& conditions) {
   require_nodes(conditions.forces);
   require_faces(conditions.tractions);
   require_faces(conditions.flows);
+  for (const Flow& flow : conditions.flows)
+    for (const Selection& on : flow.also)
+      require(on, "outer faces", selected_outer_faces);
   require_faces(conditions.quiets);
   require_faces(conditions.free_fields);
 }

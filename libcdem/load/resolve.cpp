@@ -249,7 +249,7 @@ void add_relative_flow(const ResolvedFlow& flow, double time, const std::vector<
 }
 
 // Bodies and the water that carries them have one weight.
-void require_one_gravity(const Conditions& conditions, double time) {
+void require_one_gravity(const Conditions& conditions) {
   if (!conditions.gravity)
     return;
   const Gravity& gravity = *conditions.gravity;
@@ -262,7 +262,12 @@ void require_one_gravity(const Conditions& conditions, double time) {
                              "left out beside a flow whose water has a pressure",
                              "that pressure is the buoyancy already");
     const double g = flow.water->gravity();
-    const geom::Vec3 given = gravity.turning ? gravity.turning(time) : gravity.acceleration;
+    if (gravity.turning)
+      throw geom::InputError(
+          "gravity", "a function of time",
+          fmt::format("the vector (0, 0, -{:g}) m/s2 beside a flow whose water has a pressure", g),
+          "water stands level in z at all times");
+    const geom::Vec3& given = gravity.acceleration;
     if ((given + g * geom::Vec3::UnitZ()).norm() > rounded * g)
       throw geom::InputError("gravity", geom::text(given),
                              fmt::format("(0, 0, -{:g}) m/s2, the gravity of the water of a flow", g),
@@ -296,7 +301,7 @@ void refresh_flows(const Model& model, const State& state, ResolvedConditions& r
 }
 
 ResolvedConditions resolve(const Model& model, const State& state, const Conditions& conditions) {
-  require_one_gravity(conditions, state.time);
+  require_one_gravity(conditions);
   ResolvedConditions r;
   const std::size_t n = model.node_position.size();
   HeldNodes held;
@@ -321,7 +326,7 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   if (conditions.gravity)
     add_gravity(model, *conditions.gravity, r);
   for (const Flow& flow : conditions.flows)
-    if (!is_gone(model, flow.on))
+    if (!is_gone(model, flow))
       add_flow(model, flow, r);
   for (const CrackPressure& pressure : conditions.crack_pressures)
     if (!is_gone(model, pressure.on))

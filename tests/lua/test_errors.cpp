@@ -168,4 +168,12 @@ TEST_CASE("waves enter a slope at its own level and depth, and weigh as the mode
   CHECK(weighed(", gravity = 3.7").empty());
   CHECK_THAT(weighed(""), Contains("gravity = {0, 0, -3.7}: must be (0, 0, -9.81) m/s2") &&
                               Contains("give the water the same `gravity`"));
+  // A gravity that turns is refused at once, not when it has left the vertical.
+  CHECK_THAT(
+      error_of(
+          column() +
+          "model:gravity{ vector = function(t) return {9.81 * math.sin(t), 0, -9.81 * math.cos(t)} end }\n"
+          "model:flow{ water = cdem.water.uniform{ velocity = {0, 0, 0}, level = 1 } }\n"
+          "model:run{ steps = 2 }"),
+      Contains("gravity = a function of time: must be the vector (0, 0, -9.81) m/s2"));
 }

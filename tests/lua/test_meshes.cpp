@@ -185,6 +185,20 @@ TEST_CASE("a flow pushes with its pressure on the area that faces it", "[lua]") 
           "close(model:reaction('z-')[1], 50000, 1e-5)\nclose(model:reaction('z-')[3], 50000, 1e-5)") == "");
 }
 
+TEST_CASE("a flow over two bodies goes on over the one that is left", "[lua]") {
+  const std::string pair =
+      head + "local beside = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2}, origin = {0, 3, 0} }\n"
+             "local model = cdem.model{ bodies = { { name = 'a', shape = cube, material = concrete },\n"
+             "  { name = 'b', shape = beside, material = concrete } } }\nmodel:fix{ on = 'z-' }\n";
+  CHECK(error_of(pair + "model:flow{ on = {'a', 'b'}, drag = 1, water = cdem.water.uniform{ velocity = {10, "
+                        "0, 0}, density = 1000 } }\n"
+                        "model:remove{ on = 'a' }\nassert(model:relax{ residual = 1e-8 }.converged)\n"
+                        "close(model:reaction('z-')[1], -50000, 1e-5)") == "");
+  CHECK_THAT(error_of(pair + "model:flow{ on = {'a', cdem.select.box{ min = {8, 8, 8}, max = {9, 9, 9} }}, "
+                             "water = cdem.water.uniform{ velocity = {10, 0, 0} } }"),
+             Contains("a place that holds outer faces"));
+}
+
 TEST_CASE("pressure and velocity of a flow turn into each other", "[lua]") {
   CHECK(error_of(head + "close(cdem.flow_pressure(10), 51250)\n"
                         "close(cdem.flow_velocity(51250), 10)\n"
