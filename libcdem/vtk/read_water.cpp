@@ -165,7 +165,8 @@ vtkSmartPointer<vtkDataSet> with_means(vtkDataSet* data) { // of cells, at point
 }
 
 // The head is p + rho g z, Pa.
-vtkSmartPointer<vtkDataSet> weighted(vtkDataSet* data, bool at_points, const WaterArrays& wish) {
+vtkSmartPointer<vtkDataSet> weighted(vtkDataSet* data, bool at_points, const WaterArrays& wish,
+                                     const std::string& path) {
   vtkDataSetAttributes* const given =
       at_points ? static_cast<vtkDataSetAttributes*>(data->GetPointData()) : data->GetCellData();
   const auto array = [&](const std::string& name) {
@@ -204,6 +205,9 @@ vtkSmartPointer<vtkDataSet> weighted(vtkDataSet* data, bool at_points, const Wat
     const double z = at_points ? data->GetPoint(row)[2] : centroid_height(data->GetCell(row)),
                  head =
                      wish.pressure_factor * pressure->GetComponent(row, 0) + wish.density * wish.gravity * z;
+    if (!std::isfinite(head))
+      refuse(path,
+             "\"" + wish.pressure + "\" times its factor and the weight of the water are no finite number");
     q->SetValue(row, head);
     wq->SetValue(row, weight * head);
   }
@@ -291,7 +295,7 @@ std::string sampled(const std::string& path, const WaterArrays& wish) {
   if (!alike)
     data = with_means(data);
   const bool at_points = velocity_at_points || !alike;
-  data = weighted(data, at_points, wish);
+  data = weighted(data, at_points, wish, path);
   if (!at_points)
     data = with_means(data);
   vtkNew<vtkImageData> points;
