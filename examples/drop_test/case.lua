@@ -12,6 +12,8 @@ local fineness = cdem.parameter{ name = "fineness", default = 5.0, range = {2, 3
 local tension = cdem.parameter{ name = "tensile_strength", default = 3e6, range = {1e4, 1e9}, unit = "Pa" }
 local toughness = cdem.parameter{ name = "fracture_energy", default = 100.0, range = {0, 1e6}, unit = "J/m2",
                                   doc = "G_I; 0: springs, brittle" }
+local rate = cdem.parameter{ name = "rate_effect", default = false,
+                             doc = "strength grows with the rate of strain, fib Model Code 2010; wants G_I above 0" }
 local floor = cdem.parameter{ name = "floor", default = "concrete", choices = {"concrete", "rigid"} }
 local low = cdem.parameter{ name = "low", default = 0.05, range = {1e-3, 100}, unit = "m", doc = "first height" }
 local turns = cdem.parameter{ name = "bisections", default = 4, range = {0, 20}, doc = "after the height is between two" }
@@ -40,7 +42,9 @@ local slab_mesh = slab:mesh{ size = size / fineness * 1.5 }
 local tough = toughness > 0
 local joint = cdem.mohr_coulomb{ cohesion = 2 * tension, friction_angle = 35, tensile_strength = tension,
                                  softening = tough and "linear" or "none", fracture_energy_1 = tough and toughness or nil,
-                                 fracture_energy_2 = tough and 10 * toughness or nil }
+                                 fracture_energy_2 = tough and 10 * toughness or nil,
+                                 rate_effect = rate and { reference_rate = 1e-6, exponent = 0.018, change_rate = 10,
+                                                          exponent_above = 1 / 3 } or nil }
 local rough = cdem.coulomb{ friction_angle = 35 }
 
 -- Lets it fall; returns whether a tenth of it has come off, and the model.
