@@ -63,9 +63,9 @@ void softening_spring(const BondPoint& point, State& state, BondWork& work, std:
 }
 
 // A spring whose joint has a law, broken or never bonded; broke: just now. What it loses is the work of its own traction
-// by the trapezoidal rule less the change of what it stores.
+// by the trapezoidal rule less the change of what it stores. along: N, of its dashpot, along the normal.
 void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64_t p,
-                const geom::Vec3& jump_now, bool broke, SpringSums& sums) {
+                const geom::Vec3& jump_now, bool broke, double along, SpringSums& sums) {
   const InterfaceLaw& own = work.laws[point.interface];
   JointHistory& history = state.joint_history[p];
   geom::Vec3& offset = state.bond_offset[p];
@@ -74,7 +74,8 @@ void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64
   const double stored_before =
       broke ? stored_in_spring(own.spring.kn, own.spring.ks, point.normal, traction_before)
             : joint_stored(*own.law, own.spring, point.normal, stretch_before, history.parted);
-  const JointResponse r = joint_response(*own.law, own.spring, point.normal, jump_now, offset, history);
+  const JointResponse r =
+      joint_response(*own.law, own.spring, point.normal, jump_now, offset, history, -along / point.area);
   const geom::Vec3 stretch = jump_now - r.offset;
   const double lost =
       0.5 * (traction_before + r.traction).dot(jump_now - jump_before) -
@@ -94,11 +95,12 @@ void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64
 }
 
 // One spring at the relative displacement j of its two sides, in undeformed directions. special: some joint of the
-// model softens or has a law; a model of plain brittle bonds pays nothing for the others.
+// model softens or has a law; a model of plain brittle bonds pays nothing for the others. along: N, what the dashpot of a
+// contact adds to its normal force.
 template <bool special>
 CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interface, State& state,
                                BondWork& work, std::int64_t p, const geom::Vec3& j, SpringSums& sums,
-                               bool breaking) {
+                               bool breaking, double along) {
   const geom::Vec3& n = point.normal;
   const SpringStrength& strength = work.strength[point.interface];
   const geom::Vec3 stretch = j - state.bond_offset[p];
@@ -132,12 +134,12 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
   }
   if constexpr (special)
     if (!work.laws.empty() && work.laws[point.interface].law) {
-      law_spring(point, state, work, p, j, broke, sums);
+      law_spring(point, state, work, p, j, broke, along, sums);
       return;
     }
   // Contact: the spring was never bonded or has broken, at the latest just now.
   const HeldByContact<double> held = held_by_contact<double>(
-      point.kn_area, point.ks_area, strength.tan_friction, open, root(dot(parts.shear, parts.shear)));
+      point.kn_area, point.ks_area, strength.tan_friction, open, root(dot(parts.shear, parts.shear)), along);
   const Triple<double> slip = (1 - held.shear) * parts.shear;
   const geom::Vec3 before = work.spring_force[p];
   if (held.shear < 1)
@@ -178,32 +180,61 @@ geom::Vec3 contact_offset(const State& state, std::int64_t p) {
   return state.bond_slip.empty() ? state.bond_offset[p] : state.bond_offset[p] + state.bond_slip[p];
 }
 
-// Stiffness damping of a spring that holds or presses, beside its own force, N, in undeformed directions. A bond has that
-// of its joint, a contact at least what the step asks for, and a damaged bond is both, a contact with its share D. rate:
-// m/s, of its stretch; j: m, its relative displacement; offset_before: contact_offset before this step.
+// Stiffness damping of the springs of an interface, s: a bond has that of its joint, a contact at least what the step asks
+// for.
+double damping_of_joint(const BondWork& work, int interface) {
+  return work.damping.empty() ? 0 : work.damping[interface];
+}
+double damping_of_contact(const BondWork& work, int interface) {
+  return std::max(damping_of_joint(work, interface), work.contact_damping);
+}
+
+// N, what the dashpot of a spring that is a contact adds to its normal force. rate: m/s, of its stretch.
 template <bool special>
-geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3& rate, const geom::Vec3& j,
-                         const geom::Vec3& offset_before) {
+double viscous_normal(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3& rate,
+                      const geom::Vec3& stretch) {
   const BondPoint& point = c.model.points[p];
   const BondWork& work = c.work;
-  const double of_joint = work.damping.empty() ? 0 : work.damping[point.interface],
-               beta = std::max(of_joint, work.contact_damping), kn = point.kn_area, ks = point.ks_area;
+  if (is_intact(c.state.bond_mode[p]))
+    return 0;
   const Triple<double> n = triple(point.normal);
-  const auto viscous = [&](double normal_force, double left, bool slides) {
-    const bool presses = normal_force < 0;
-    return vec(viscous_of_contact<double>(beta, kn, ks, n, triple(rate), -normal_force, left, presses,
-                                          presses && !slides));
+  const double open = dot(triple(stretch), n);
+  double normal_force = point.kn_area * open;
+  if constexpr (special)
+    if (!work.laws.empty() && work.laws[point.interface].law) {
+      const InterfaceLaw& own = work.laws[point.interface];
+      normal_force =
+          -point.area * joint_pressure(*own.law, own.spring, open, c.state.joint_history[p].parted);
+    }
+  return viscous_along<double>(damping_of_contact(work, point.interface), point.kn_area, dot(triple(rate), n),
+                               normal_force);
+}
+
+// Stiffness damping of a spring that holds or presses, beside its own force, N, in undeformed directions. A damaged bond is
+// a bond, and a contact with its share D. rate: m/s, of its stretch; j: m, its relative displacement; offset_before:
+// contact_offset before this step; along: viscous_normal before this step.
+template <bool special>
+geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3& rate, const geom::Vec3& j,
+                         const geom::Vec3& offset_before, double along) {
+  const BondPoint& point = c.model.points[p];
+  const BondWork& work = c.work;
+  const double of_joint = damping_of_joint(work, point.interface),
+               beta = damping_of_contact(work, point.interface), kn = point.kn_area, ks = point.ks_area;
+  const Triple<double> n = triple(point.normal);
+  const auto viscous = [&](double viscous_normal, double left, bool sticks) {
+    return geom::Vec3(viscous_normal * point.normal +
+                      vec(viscous_across<double>(beta, ks, n, triple(rate), left, sticks)));
   };
   if constexpr (special)
     if (!is_intact(c.state.bond_mode[p]) && !work.laws.empty() && work.laws[point.interface].law) {
       const InterfaceLaw& own = work.laws[point.interface];
       const geom::Vec3& force = work.spring_force[p];
       const double normal_force = force.dot(point.normal),
-                   strength = joint_strength(*own.law, own.spring, std::max(0.0, -normal_force / point.area),
-                                             c.state.joint_history[p].path),
+                   pressure = std::max(0.0, -(normal_force + along) / point.area),
+                   strength = joint_strength(*own.law, own.spring, pressure, c.state.joint_history[p].path),
                    shear = (force - normal_force * point.normal).norm();
-      return viscous(normal_force, std::max(0.0, point.area * strength - shear),
-                     c.state.bond_offset[p] != offset_before);
+      return viscous(along, std::max(0.0, point.area * strength - shear),
+                     normal_force < 0 && c.state.bond_offset[p] == offset_before);
     }
   const auto of_bond = [&](double share) {
     const double part = share * of_joint;
@@ -215,8 +246,12 @@ geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Ve
   const SpringStretch<double> parts = parts_of(triple(geom::Vec3(j - offset_before)), n);
   const double tan = work.strength[point.interface].tan_friction,
                length = root(dot(parts.shear, parts.shear)), normal_force = kn * parts.open;
-  const geom::Vec3 of_contact = viscous(normal_force, friction_left<double>(ks, tan, normal_force, length),
-                                        held_by_contact<double>(kn, ks, tan, parts.open, length).shear < 1);
+  if (broken < 1) // the friction of its contact is that of its softening law
+    along = viscous_along<double>(beta, kn, dot(triple(rate), n), normal_force);
+  const double in_friction = broken < 1 ? 0 : along;
+  const geom::Vec3 of_contact = viscous(
+      along, friction_left<double>(ks, tan, normal_force + in_friction, length),
+      normal_force < 0 && !(held_by_contact<double>(kn, ks, tan, parts.open, length, in_friction).shear < 1));
   return broken == 1 ? of_contact : of_bond(1 - broken) + broken * of_contact;
 }
 
@@ -229,7 +264,7 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   BondWork& work = c.work;
   const Node* const u = state.displacement.data();
   if (interface.frame < 0) {
-    update_spring<special>(point, interface, state, work, p, jump_at(point, u), c.sums, c.breaking);
+    update_spring<special>(point, interface, state, work, p, jump_at(point, u), c.sums, c.breaking, 0);
     if (c.acts_otherwise)
       work.acting_force[p] = work.spring_force[p] + water_force(state, point, p);
     return;
@@ -244,14 +279,16 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   const Rotation<double> turn{triple(rotation.col(0)), triple(rotation.col(1)), triple(rotation.col(2))};
   const geom::Vec3 offset_before = contact_offset(state, p),
                    j = vec(turned_back(turn, triple(jump_at(c.model, p, u))));
-  update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking);
+  const geom::Vec3 rate = c.damped ? vec(turned_back(turn, triple(jump_at(point, state.velocity.data()))))
+                                   : geom::Vec3(geom::Vec3::Zero());
+  const double along = c.damped ? viscous_normal<special>(c, p, rate, j - offset_before) : 0;
+  update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, along);
   geom::Vec3 acting = work.spring_force[p] + water_force(state, point, p);
   if (c.damped) {
     // Damping takes in a step the mean of its forces before and after it, times the motion.
-    const geom::Vec3 rate = vec(turned_back(turn, triple(jump_at(point, state.velocity.data()))));
     geom::Vec3& viscous = work.viscous[p];
     const geom::Vec3 before = viscous;
-    viscous = viscous_force<special>(c, p, rate, j, offset_before);
+    viscous = viscous_force<special>(c, p, rate, j, offset_before, along);
     acting += viscous;
     c.sums.damping += (0.5 * work.damping_step) * dot(triple(before + viscous), triple(rate));
   }

@@ -148,7 +148,15 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   HeldByContact<Oct> held{one, one};
   Triples viscous{};
   if (simd::any(contact)) {
-    held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2));
+    Triples rate{};
+    Oct along{};
+    if (springs.viscous) {
+      rate = turned_back(rotation, jumps_of(all, batch, springs.velocity));
+      const Oct of_contact =
+          viscous_along<Oct>(none + springs.contact_damping, kn, dot(rate, n), normal_force);
+      along = contact & ~leaves ? of_contact : none;
+    }
+    held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2), along);
     held = {contact ? held.normal : one, contact ? held.shear : one};
     const Mask slips = simd::below<Oct>(held.shear, one);
     if (simd::any(slips & ~leaves)) {
@@ -161,11 +169,11 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
     }
     if (springs.viscous) {
       const Mask here = contact & ~leaves, press = here & simd::below<Oct>(normal_force, none);
-      const Triples rate = turned_back(rotation, jumps_of(all, batch, springs.velocity)),
-                    viscous_before = load_triples(springs.viscous);
-      viscous = viscous_of_contact<Oct>(none + springs.contact_damping, kn, ks, n, rate, none - normal_force,
-                                        friction_left<Oct>(ks, tan, normal_force, root(length2)), press,
-                                        press & ~slips);
+      const Triples viscous_before = load_triples(springs.viscous),
+                    across = viscous_across<Oct>(
+                        none + springs.contact_damping, ks, n, rate,
+                        friction_left<Oct>(ks, tan, normal_force + along, root(length2)), press & ~slips);
+      viscous = along * n + across;
       const Oct lost = (0.5 * springs.damping_step) * dot(viscous_before + viscous, rate);
       for (int lane = 0; lane < lanes; ++lane)
         if (here[lane] != 0)

@@ -103,7 +103,8 @@ double zero_of(const F& f, double low, double high, double f_low, double first, 
 
 template <class Law>
 JointResponse response(const Law& law, const JointSpring& spring, const geom::Vec3& normal,
-                       const geom::Vec3& jump, const geom::Vec3& offset, const JointHistory& history) {
+                       const geom::Vec3& jump, const geom::Vec3& offset, const JointHistory& history,
+                       double viscous) {
   JointResponse r{geom::Vec3::Zero(), offset, history};
   const geom::Vec3 stretch = jump - offset;
   const double open = stretch.dot(normal);
@@ -122,7 +123,7 @@ JointResponse response(const Law& law, const JointSpring& spring, const geom::Ve
   }
   const double pressure = pressure_at(law, spring, open, r.history.parted), length = shear.norm(),
                trial = spring.ks * length;
-  const double strength = law.strength(spring, pressure, history.path);
+  const double strength = law.strength(spring, std::max(0.0, pressure + viscous), history.path);
   if (!(trial > strength)) {
     r.traction = -pressure * normal + spring.ks * shear;
     return r;
@@ -137,7 +138,8 @@ JointResponse response(const Law& law, const JointSpring& spring, const geom::Ve
     return pressure_at(law, spring, open - rise_by(x), r.history.parted);
   };
   const auto beyond = [&](double x) {
-    return spring.ks * (length - x) - law.strength(spring, pressure_after(x), history.path + x);
+    return spring.ks * (length - x) -
+           law.strength(spring, std::max(0.0, pressure_after(x) + viscous), history.path + x);
   };
   const double slip =
       zero_of(beyond, 0, length, trial - strength, (trial - strength) / spring.ks, close_enough * trial);
@@ -163,12 +165,13 @@ double stored(const Law& law, const JointSpring& spring, const geom::Vec3& norma
 
 } // namespace joint_law
 
-// Response of a spring whose joint has a law, broken or never bonded.
+// Response of a spring whose joint has a law, broken or never bonded. viscous: Pa, pressure of a dashpot beside its own.
 inline JointResponse joint_response(const JointLaw& law, const JointSpring& spring, const geom::Vec3& normal,
                                     const geom::Vec3& jump, const geom::Vec3& offset,
-                                    const JointHistory& history) {
-  return with_law(
-      law, [&](const auto& own) { return joint_law::response(own, spring, normal, jump, offset, history); });
+                                    const JointHistory& history, double viscous = 0) {
+  return with_law(law, [&](const auto& own) {
+    return joint_law::response(own, spring, normal, jump, offset, history, viscous);
+  });
 }
 
 // J/m2, stretch: with the offset of the response.
@@ -176,6 +179,11 @@ inline double joint_stored(const JointLaw& law, const JointSpring& spring, const
                            const geom::Vec3& stretch, double parted) {
   return with_law(law,
                   [&](const auto& own) { return joint_law::stored(own, spring, normal, stretch, parted); });
+}
+
+// Pa, of faces that are this far open, m; parted: JointHistory::parted.
+inline double joint_pressure(const JointLaw& law, const JointSpring& spring, double open, double parted) {
+  return with_law(law, [&](const auto& own) { return joint_law::pressure_at(own, spring, open, parted); });
 }
 
 inline double joint_strength(const JointLaw& law, const JointSpring& spring, double pressure, double path) {

@@ -26,11 +26,14 @@ struct HeldByContact {
   T normal, shear;
 };
 
+// viscous: what a dashpot adds to the normal force kn open, at most as much as presses. Friction acts on both: dashpots
+// bear a part of the weight of what slides, as they press more than they pull.
 template <class T>
 CDEM_INLINE HeldByContact<T> held_by_contact(const T& kn, const T& ks, const T& tan_friction, const T& open,
-                                             const T& shear_length) {
+                                             const T& shear_length, const T& viscous = T{}) {
   const T none = T{}, all = none + 1.0;
-  const T held = held_by_friction<T>(ks * shear_length, friction_limit<T>(-(kn * open), tan_friction));
+  const T held =
+      held_by_friction<T>(ks * shear_length, friction_limit<T>(-(kn * open + viscous), tan_friction));
   const auto apart = simd::below(none, open);
   return {apart ? none : all, apart ? none : held};
 }
@@ -71,17 +74,21 @@ CDEM_INLINE T friction_left(const T& ks, const T& tan_friction, const T& normal_
   return left > T{} ? left : T{};
 }
 
-// Stiffness damping of a contact beside its own force. It takes no tension, nothing while it is open, no shear while it
-// slides, and no more shear than friction leaves. damping: s; rate: m/s, of the stretch; pressing: N, >= 0.
+// Stiffness damping of a contact beside its own force, along the normal: it takes no tension, and nothing while the contact
+// is open. damping: s; opening: m/s; normal_force: N, its own, < 0 where it is pressed.
+template <class T>
+CDEM_INLINE T viscous_along(const T& damping, const T& kn, const T& opening, const T& normal_force) {
+  const T none{}, wanted = (damping * kn) * opening, pressing = none - normal_force;
+  return simd::below(normal_force, none) ? (wanted < pressing ? wanted : pressing) : none;
+}
+
+// And across it: none while it slides, and no more than friction leaves. rate: m/s, of the stretch.
 template <class T, class Mask>
-CDEM_INLINE Triple<T> viscous_of_contact(const T& damping, const T& kn, const T& ks, const Triple<T>& normal,
-                                         const Triple<T>& rate, const T& pressing, const T& friction_left,
-                                         const Mask& presses, const Mask& sticks) {
-  const T none{}, opening = dot(rate, normal), wanted = (damping * kn) * opening,
-                  along = presses ? (wanted < pressing ? wanted : pressing) : none,
-                  part = sticks ? damping * ks : none;
-  const Triple<T> shear = part * (rate - opening * normal);
-  return along * normal + held_by_friction<T>(root(dot(shear, shear)), friction_left) * shear;
+CDEM_INLINE Triple<T> viscous_across(const T& damping, const T& ks, const Triple<T>& normal,
+                                     const Triple<T>& rate, const T& friction_left, const Mask& sticks) {
+  const T part = sticks ? damping * ks : T{};
+  const Triple<T> shear = part * (rate - dot(rate, normal) * normal);
+  return held_by_friction<T>(root(dot(shear, shear)), friction_left) * shear;
 }
 
 template <class T>

@@ -66,3 +66,35 @@ TEST_CASE("a contact's damping never pulls, and the shortened stable step holds"
     }
   CHECK(momentum / mass == Approx(1e-3).epsilon(1e-6));
 }
+
+TEST_CASE("friction acts on the weight that the dashpots of a joint bear", "[damping][joint][friction]") {
+  const double slope = 45 * degree, friction = 40 * degree, g = 9.81;
+  cdem::Joint joint;
+  joint.bonded = false;
+  joint.friction_angle = friction;
+  joint.stiffness_damping = 1e-3; // bears half of the weight while the sole trembles
+  cdem::BodySpec base = body("base", geom::grid({4, 2, 1}, {1, 1, 1}, {-1, 0, -1})),
+                 block = body("block", geom::grid({2, 2, 1}, {1, 1, 1}));
+  base.element = block.element = cdem::Element::finite_volume;
+  System s(build({base, block}, {{"base", "block", joint}}));
+  s.conditions.fixes.push_back(fixed(cdem::Selection::of_body("base")));
+  s.conditions.gravity = gravity({g * std::sin(slope), 0, -g * std::cos(slope)});
+  cdem::RunOptions options;
+  options.duration = 0.05;
+  s.run(options);
+  const auto speed = [&] {
+    double momentum = 0, mass = 0;
+    for (std::size_t i = 0; i < s.model.node_position.size(); ++i)
+      if (s.model.blocks[cdem::block_of(s.model, static_cast<int>(i))].body == 1) {
+        momentum += s.model.node_mass[i] * s.state.velocity[i].x;
+        mass += s.model.node_mass[i];
+      }
+    return momentum / mass;
+  };
+  const double before = speed();
+  s.run(options);
+  const double law = g * (std::sin(slope) - std::tan(friction) * std::cos(slope));
+  // 3 times the law's before, as friction knew of half the weight only.
+  CHECK((speed() - before) / options.duration < 1.3 * law);
+  CHECK((speed() - before) / options.duration > 0.95 * law);
+}
