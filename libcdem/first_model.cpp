@@ -327,7 +327,7 @@ Model first_model(const ModelSpec& spec) {
     const std::size_t before = meshes.size();
     for (const geom::TetMesh& mesh : body.meshes)
       for (geom::TetMesh& part : geom::parts(mesh))
-        meshes.push_back({0, index, std::move(part)});
+        meshes.push_back({0, index, 0, std::move(part)});
     parts.push_back(body.shape.blocks.size() + meshes.size() - before);
     frame.pair_joint[{index, index}] = static_cast<int>(frame.joints.size());
     frame.joints.push_back(body.joint);

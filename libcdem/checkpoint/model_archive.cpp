@@ -48,13 +48,13 @@ CDEM_ARCHIVE(Joint, bonded, glued, cohesion, friction_angle, tensile_strength, s
              thickness_ratio, thickness, kn, ks, stiffness_damping, restitution, scatter, rate, law, curve)
 CDEM_ARCHIVE(RegionLaws, joints, regions)
 CDEM_ARCHIVE(Bonding, kind, everywhere, between_regions, regions, stiffness_ratio, shear_ratio)
-CDEM_ARCHIVE(Body, name, material, joint, bonding, element, zone_size, region_laws, set_joint, glued_joint,
-             plasticity)
+CDEM_ARCHIVE(Body, name, material, joint, bonding, element, zone_size, region_laws, set_joint, units,
+             glued_joint, plasticity)
 CDEM_ARCHIVE(geom::PolyhedronFace, loop, cut, glued)
 CDEM_ARCHIVE(geom::Polyhedron, vertices, faces)
 CDEM_ARCHIVE(geom::MassProperties, volume, centroid, inertia)
 CDEM_ARCHIVE(geom::Box, min, max)
-CDEM_ARCHIVE(Block, id, parent, generation, body, meshed, zoned, rigid, shape, mass, size, first_size,
+CDEM_ARCHIVE(Block, id, parent, generation, body, unit, meshed, zoned, rigid, shape, mass, size, first_size,
              node_begin, node_end, tet_begin, tet_end)
 CDEM_ARCHIVE(Interface, id, block_a, face_a, block_b, face_b, normal, joint, thickness, kn, ks, origin,
              may_break, strength, point_begin, point_end, frame, triangle_begin, triangle_end)
@@ -87,14 +87,14 @@ CDEM_ARCHIVE(BlockPairLaw, blocks, joint)
 CDEM_ARCHIVE(ContactSurface, triangles, edges, block_begin, usual_height, original, joint, left_by, pairs)
 CDEM_ARCHIVE(Model, bodies, joints, blocks, pair_joint, node_position, node_mass, gravitational_mass, tets,
              tet_block, batches, interfaces, frames, points, point_position, point_apart, bond_triangles,
-             bond_begin, spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, length,
-             tolerance, next_id)
+             bond_begin, spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, built_box,
+             length, tolerance, next_id)
 CDEM_ARCHIVE(BreakRow, stage, step, time, mode, place, normal, area, normal_traction, shear_traction, block_a,
              block_b)
 CDEM_ARCHIVE(HistoryRow, stage, step, time, residual, kinetic, external, broken_tension, broken_shear, probes)
 CDEM_ARCHIVE(Probe, name, field, place, crack, body, on)
 CDEM_ARCHIVE(Departure, unit, step, time, velocity, displacement, place, share)
-CDEM_ARCHIVE(Watch, leaves, blocks, touched, start, gone, left, tet_start, tet_left)
+CDEM_ARCHIVE(Watch, leaves, blocks, numbers, touched, start, gone, left, tet_start, tet_left)
 CDEM_ARCHIVE(EscapeRow, stage, step, time, text)
 CDEM_ARCHIVE(RunLog, breaks, history, probes, watches, escapes, unmet, broken_tension, broken_shear,
              told_tension, told_shear, deepest_contact, deepest_over_height, one_way, every)

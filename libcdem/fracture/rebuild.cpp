@@ -129,6 +129,7 @@ private:
       seed.parent = s.whole ? parent.parent : parent.id;
       seed.generation = parent.generation + (s.whole ? 0 : 1);
       seed.body = parent.body;
+      seed.unit = parent.unit;
       seed.shape = s.shape;
       seed.first_size = parent.first_size;
       if (s.whole)

@@ -31,6 +31,7 @@ struct Body {
   RegionLaws region_laws = {}; // of a meshed body
   // Index into Model::joints of the law on faces that a joint set or cut of this name made; others have `joint`.
   std::map<std::string, int> set_joint = {};
+  int units = 0;               // blocks it was built of
   int glued_joint = -1;        // the same for glued faces; -1: it has none
   PlasticLaws plasticity = {}; // of a body that moves far; empty: it is elastic
 
@@ -48,6 +49,7 @@ struct Block {
   std::int64_t parent = -1; // id of the block it was cut from
   int generation = 0;       // cuts between the first block and this one
   int body = 0;
+  int unit = 0;              // number among the blocks its body was built of, from 1; pieces keep it
   bool meshed = false;       // its tets are of finite volume and stand in MeshData: it may move far
   bool zoned = false;        // a convex block with a finer mesh than its star mesh
   int rigid = -1;            // index into Model::rigid; -1: it deforms
@@ -201,6 +203,7 @@ struct Model {
   std::vector<Range> point_chunks;
 
   geom::Box box;        // undeformed
+  geom::Box built_box;  // the same when the model was built: its sides are places for conditions
   double length = 0;    // diagonal of the box, m
   double tolerance = 0; // places nearer than this are one, m
   std::int64_t next_id = 1;

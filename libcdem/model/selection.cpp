@@ -13,15 +13,18 @@ namespace {
 
 // The blocks that a selection of units means.
 std::vector<char> chosen_units(const Model& model, const Selection& s) {
-  std::vector<char> chosen(model.blocks.size(), 0);
-  int number = 0;
-  for (const int b : units_of_body(model, s.body))
-    chosen[b] = std::binary_search(s.units.begin(), s.units.end(), ++number);
-  if (number == 0)
+  const auto body = std::find_if(model.bodies.begin(), model.bodies.end(),
+                                 [&](const Body& named) { return named.name == s.body; });
+  if (body == model.bodies.end())
     refuse_body("body", s.body, model);
-  if (s.units.back() > number)
+  if (s.units.back() > body->units)
     throw geom::InputError("numbers", std::to_string(s.units.back()),
-                           fmt::format("a unit of \"{}\", which has {}", s.body, number));
+                           fmt::format("a unit of \"{}\", which has {}", s.body, body->units));
+  std::vector<char> chosen;
+  chosen.reserve(model.blocks.size());
+  for (const Block& block : model.blocks)
+    chosen.push_back(model.bodies[block.body].name == s.body &&
+                     std::binary_search(s.units.begin(), s.units.end(), block.unit));
   return chosen;
 }
 
@@ -99,7 +102,7 @@ bool Selector::operator()(const geom::Vec3& x, int block) const {
   case Selection::Kind::all:
     return true;
   case Selection::Kind::side: {
-    const double side = s.upper ? model.box.max[s.axis] : model.box.min[s.axis];
+    const double side = s.upper ? model.built_box.max[s.axis] : model.built_box.min[s.axis];
     return std::abs(x[s.axis] - side) <= model.tolerance;
   }
   case Selection::Kind::plane:

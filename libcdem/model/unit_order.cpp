@@ -20,11 +20,4 @@ std::vector<int> units_of_body(const Model& model, const std::string& body) {
   return units;
 }
 
-std::vector<int> unit_numbers(const Model& model) {
-  std::vector<int> count(model.bodies.size(), 0), number(model.blocks.size());
-  for (const int b : blocks_by_id(model))
-    number[b] = ++count[model.blocks[b].body];
-  return number;
-}
-
 } // namespace cdem

@@ -11,6 +11,4 @@ std::vector<int> blocks_by_id(const Model&); // indices of all blocks, ids ascen
 // The units of a body, first unit first: indices of its blocks, ids ascending. Empty where no body has the name.
 std::vector<int> units_of_body(const Model&, const std::string& body);
 
-std::vector<int> unit_numbers(const Model&); // of each block among those of its body, from 1 (n_blocks)
-
 } // namespace cdem

@@ -2,7 +2,6 @@
 
 #include "libcdem/bond/face_bonds.hpp"
 #include "libcdem/element/mesh_fields.hpp"
-#include "libcdem/model/unit_order.hpp"
 #include "libcdem/results/bond_damage.hpp"
 #include "libcdem/results/empty_field.hpp"
 #include "libcdem/results/fields.hpp"
@@ -64,17 +63,6 @@ std::vector<double> mesh_damage(const Model& model, const State& state) {
   return lost;
 }
 
-// Number of each block among those of its body, from 1; 0 where it is the only one.
-std::vector<int> shown_unit_numbers(const Model& model) {
-  std::vector<int> blocks_in(model.bodies.size(), 0), number = unit_numbers(model);
-  for (const Block& block : model.blocks)
-    ++blocks_in[block.body];
-  for (std::size_t b = 0; b < number.size(); ++b)
-    if (blocks_in[model.blocks[b].body] == 1)
-      number[b] = 0;
-  return number;
-}
-
 // Fills one field after the other.
 class CellFields {
 public:
@@ -128,8 +116,9 @@ void add_numbers(const Model& model, CellFields& of) {
   number("parent_id", [&](int b) { return model.blocks[b].parent; });
   number("generation", [&](int b) { return model.blocks[b].generation; });
   number("body", [&](int b) { return model.blocks[b].body; });
-  const std::vector<int> units = of.wants("unit", from) ? shown_unit_numbers(model) : std::vector<int>();
-  number("unit", [&](int b) { return units[b]; });
+  number("unit", [&](int b) { // 0 where a body was built of one block
+    return model.bodies[model.blocks[b].body].units > 1 ? model.blocks[b].unit : 0;
+  });
 }
 
 void add_damage(const Model& model, const State& state, CellFields& of) {

@@ -97,8 +97,10 @@ Watch start_watch(const Model& model, const State& state, const std::string& bod
   if (watch.blocks.empty())
     refuse_body("body", body, model);
   const std::vector<std::vector<int>> touched = touching(model, state);
-  for (const int b : watch.blocks)
+  for (const int b : watch.blocks) {
+    watch.numbers.push_back(model.blocks[b].unit);
     watch.touched.push_back(touched[b]);
+  }
   watch.start = centroids(model, state);
   watch.gone.assign(model.blocks.size(), 0);
   for (const int b : watch.blocks)
@@ -136,7 +138,7 @@ void look(const Model& model, const State& state, double flow_velocity, Watch& w
     };
     const auto depart = [&](const geom::Vec3& own, const geom::Vec3& place, double share) {
       watch.left.push_back(
-          {static_cast<int>(unit) + 1, state.step, state.time, flow_velocity, own - mean, place, share});
+          {watch.numbers[unit], state.step, state.time, flow_velocity, own - mean, place, share});
     };
     if (!can_break(model, block)) {
       const geom::Vec3 own = now[block] - watch.start[block];
@@ -170,7 +172,8 @@ void look(const Model& model, const State& state, double flow_velocity, Watch& w
 Watch watch_at(const Watch& watch, std::int64_t step) {
   Watch then = watch;
   while (!then.left.empty() && then.left.back().step > step) {
-    then.gone[then.blocks[then.left.back().unit - 1]] = 0;
+    const auto number = std::find(then.numbers.begin(), then.numbers.end(), then.left.back().unit);
+    then.gone[then.blocks[number - then.numbers.begin()]] = 0;
     then.left.pop_back();
   }
   for (std::int64_t& left : then.tet_left)

@@ -30,6 +30,7 @@ struct Departure {
 struct Watch {
   double leaves = 0;                     // m
   std::vector<int> blocks;               // the body's units, in order
+  std::vector<int> numbers;              // of these, from 1 (n units)
   std::vector<std::vector<int>> touched; // by each of them when the watch was made, ascending (n units)
   std::vector<geom::Vec3> start;         // m, centroids of all blocks then (n_blocks)
   std::vector<std::uint8_t> gone;        // (n_blocks) has left

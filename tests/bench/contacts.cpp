@@ -46,7 +46,7 @@ Model lattice(int bodies, int divisions, bool touching) {
       };
       mesh.nodes[k] += spacing * cell + geom::Vec3(draw(0), draw(1), draw(2));
     }
-    seeds.push_back({0, 0, std::move(mesh)});
+    seeds.push_back({0, 0, 0, std::move(mesh)});
   }
   return build_model(frame, {}, default_traits, std::move(seeds));
 }

@@ -52,6 +52,53 @@ TEST_CASE("a condition whose whole place is removed acts on nothing from then on
   CHECK_THROWS_WITH(s.traction(traction(end, {0, 0, -1e4})), Catch::Contains("outer faces"));
 }
 
+TEST_CASE("a condition on a side never goes over to the face that an excavation leaves", "[excavation]") {
+  cdem::Joint dry = rock_joint();
+  dry.bonded = false;
+  const double weight = rock().density * 9.81 * 4; // N, of one block
+  cdem::Simulation s = simulation(geom::grid({2, 2, 3}, {1, 1, 3}), rock(), dry);
+  s.gravity(gravity());
+  SECTION("a support") {
+    s.fix(fixed(cdem::Selection::side("z-")));
+    s.fix(fixed(cdem::Selection::side("z+")));
+    REQUIRE(s.relax({}).converged);
+    REQUIRE(s.remove(cdem::Selection::in_box(box(-1, 3, -1, 1))) == 1);
+    cdem::RunOptions options;
+    options.duration = 0.01;
+    s.run(options); // the middle block hung on nothing but what stood below it
+    CHECK(s.at("velocity.z", {1, 1, 1.5}) == Approx(-9.81 * 0.01).epsilon(0.02));
+    CHECK_THROWS_WITH(s.reaction(cdem::Selection::side("z-")), Catch::Contains("holds nodes"));
+  }
+  SECTION("a load") {
+    const cdem::Selection foot = cdem::Selection::side("z-"), top = cdem::Selection::side("z+");
+    s.fix(fixed(foot));
+    s.traction(traction(top, {0, 0, -1e6}));
+    REQUIRE(s.relax({}).converged);
+    REQUIRE(s.remove(cdem::Selection::in_box(box(-1, 3, 2, 4))) == 1);
+    REQUIRE(s.relax({}).converged);
+    CHECK(s.reaction(foot).z() == Approx(2 * weight).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("units keep their numbers when others are taken out", "[excavation]") {
+  cdem::Simulation s = simulation(geom::grid({0.4, 0.1, 0.1}, {4, 1, 1}));
+  const auto unit = [&](int number) { return cdem::Selection::of_units(s.model().bodies[0].name, {number}); };
+  const cdem::Selection first = unit(1), third = unit(3);
+  s.fix(fixed(unit(2)));
+  s.fix(fixed(first));
+  REQUIRE(s.remove(first) == 1);
+  CHECK(cdem::selected_nodes(s.model(), first).empty());
+  for (const int node : cdem::selected_nodes(s.model(), third)) {
+    CHECK(s.model().node_position[node].x() > 0.2 - 1e-9);
+    CHECK(s.model().node_position[node].x() < 0.3 + 1e-9);
+  }
+  s.gravity(gravity());
+  REQUIRE(s.relax({}).converged);
+  CHECK(s.at("displacement.magnitude", {0.15, 0.05, 0.05}) == 0); // unit 2 is held
+  CHECK(s.at("displacement.magnitude", {0.25, 0.05, 0.05}) > 0);
+  CHECK_THROWS_WITH(cdem::selected_nodes(s.model(), unit(5)), Catch::Contains("which has 4"));
+}
+
 TEST_CASE("a chamber cut out of stressed rock closes in on itself and stays in balance", "[excavation]") {
   cdem::Joint joint = rock_joint();
   cdem::Simulation s = simulation(geom::grid({0.7, 0.1, 0.7}, {7, 1, 7}, {-0.35, 0, -0.35}), rock(), joint);

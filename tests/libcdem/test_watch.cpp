@@ -176,6 +176,7 @@ TEST_CASE("a watch goes on from a saved model, and can be taken back to a step t
   }
   cdem::Watch watch;
   watch.blocks = {4, 7};
+  watch.numbers = {1, 2};
   watch.gone.assign(8, 1);
   watch.left = whole.log().watches.at(0).left;
   const cdem::Watch then = cdem::watch_at(watch, whole.log().watches.at(0).left[0].step);

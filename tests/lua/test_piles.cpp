@@ -53,6 +53,22 @@ TEST_CASE("each unit of a pile becomes a block of its body", "[lua]") {
                  "  for k = 1, 3 do close(block.centroid[k], pile:poses()[i].centroid[k]) end\nend") == "");
 }
 
+TEST_CASE("units keep their numbers and places when others are removed", "[lua]") {
+  CHECK(
+      error_of(dropped +
+               "local two = cdem.select.units{ body = 'units', numbers = {3, 8} }\n"
+               "local highest = model:highest_units{ body = 'units', count = 12 }\n"
+               "model:remove{ on = two }\n"
+               "local left = model:pile{ body = 'units' }\nassert(#left == 10)\n"
+               "local i = 0\nfor number = 1, 12 do if number ~= 3 and number ~= 8 then\n"
+               "  i = i + 1\n"
+               "  for k = 1, 3 do close(left:poses()[i].centroid[k], pile:poses()[number].centroid[k]) end\n"
+               "end end\n"
+               "local after = model:highest_units{ body = 'units', count = 10 }\n"
+               "i = 0\nfor _, number in ipairs(highest) do if number ~= 3 and number ~= 8 then\n"
+               "  i = i + 1\n  assert(after[i] == number)\nend end") == "");
+}
+
 TEST_CASE("conditions work on chosen units alone", "[lua]") {
   CHECK(error_of(
             dropped +

@@ -43,6 +43,7 @@ void require_whole(const Model& model, const RunLog& log) {
   for (const Watch& watch : log.watches) {
     all_below("watches.blocks", watch.blocks, model.blocks.size());
     require_length("watches.touched", watch.touched.size(), watch.blocks.size());
+    require_length("watches.numbers", watch.numbers.size(), watch.blocks.size());
     for (const auto& touched : watch.touched)
       all_below("watches.touched", touched, model.blocks.size());
     require_length("watches.start", watch.start.size(), model.blocks.size());
@@ -54,7 +55,7 @@ void require_whole(const Model& model, const RunLog& log) {
     require_length("watches.tet_start", watch.tet_start.size(), tets);
     require_length("watches.tet_left", watch.tet_left.size(), tets);
     for (const Departure& departure : watch.left)
-      require(departure.unit >= 1 && departure.unit <= count(watch.blocks.size()), "watches.left",
+      require(std::count(watch.numbers.begin(), watch.numbers.end(), departure.unit) == 1, "watches.left",
               departure.unit);
   }
   for (const auto& pair : log.unmet)

@@ -462,6 +462,7 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     Block block;
     block.id = seed.id ? seed.id : model.next_id++;
     block.body = seed.body;
+    block.unit = seed.unit;
     block.meshed = true;
     block.mass = geom::mass_properties(mesh);
     block.size = block.first_size = std::cbrt(block.mass.volume);

@@ -11,6 +11,7 @@ namespace cdem {
 struct MeshSeed {
   std::int64_t id = 0; // of the block; 0: a new one
   int body = 0;
+  int unit = 0; // 0: a new one
   geom::TetMesh mesh;
   bool ordered = false;         // its tets and nodes stand in their order already
   std::vector<char> freed = {}; // per node, of a cohesive body; empty: none

@@ -7,6 +7,7 @@
 #include "libcdem/model/build/convex_inertia.hpp"
 #include "libcdem/model/build/light_corners.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
+#include "libcdem/model/unit_order.hpp"
 #include "libgeom/assembly/assembly.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
@@ -30,6 +31,7 @@ void add_block(Model& model, BlockSeed&& seed, const geom::BlockMesh& mesh) {
   block.parent = seed.parent;
   block.generation = seed.generation;
   block.body = seed.body;
+  block.unit = seed.unit;
   block.shape = std::move(seed.shape);
   block.mass = geom::mass_properties(block.shape);
   block.size = std::cbrt(block.mass.volume);
@@ -385,6 +387,17 @@ InterfaceTraits default_traits(const Model& model, int block_a, int face_a, int 
   return traits;
 }
 
+namespace {
+
+// Blocks of a body that is built for the first time are its units.
+void number_units(Model& model) {
+  for (const int b : blocks_by_id(model))
+    if (Block& block = model.blocks[b]; block.unit == 0)
+      block.unit = ++model.bodies[block.body].units;
+}
+
+} // namespace
+
 Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const InterfaceRule& rule,
                   std::vector<MeshSeed> meshes) {
   Model model;
@@ -392,6 +405,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   model.joints = frame.joints;
   model.pair_joint = frame.pair_joint;
   model.next_id = frame.next_id;
+  model.built_box = frame.built_box;
   model.surface.joint = frame.surface.joint;
   model.surface.left_by = frame.surface.left_by;
 
@@ -436,6 +450,9 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
     smallest = std::min(smallest, block.size);
   for (const geom::Vec3& x : model.node_position)
     model.box.extend(x);
+  if (frame.blocks.empty())
+    model.built_box = model.box;
+  number_units(model);
   model.length = model.box.size().norm();
   model.tolerance = relative_tolerance * smallest;
   return model;

@@ -14,6 +14,7 @@ struct BlockSeed {
   std::int64_t id = 0, parent = -1;
   int generation = 0;
   int body = 0;
+  int unit = 0; // 0: a new one
   geom::Polyhedron shape;
   double first_size = 0;      // h of the generation-0 block, m; 0 = this is one
   geom::BlockMesh zones = {}; // those of a zoned block that was there before; none: it is meshed anew
@@ -33,7 +34,7 @@ struct InterfaceTraits {
 using InterfaceRule =
     std::function<InterfaceTraits(const Model&, int block_a, int face_a, int block_b, int face_b)>;
 
-// bodies, joints, pair_joint and next_id of `frame` are taken over. Throws geom::InputError for overlapping or
+// bodies, joints, pair_joint, built_box and next_id of `frame` are taken over. Throws geom::InputError for overlapping or
 // touching bodies without a joint.
 Model build_model(const Model& frame, std::vector<BlockSeed> blocks, const InterfaceRule& rule,
                   std::vector<MeshSeed> meshes = {});

@@ -61,6 +61,7 @@ MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed,
   MeshSeed seed;
   seed.id = b.id;
   seed.body = b.body;
+  seed.unit = b.unit;
   seed.ordered = true;
   const int* const original = data.original.data() - data.first_node;
   const auto [least, most] = std::minmax_element(original + b.node_begin, original + b.node_end);

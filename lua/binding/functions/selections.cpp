@@ -68,7 +68,7 @@ void bind_selections(Module& m) {
   whole_number.range = {1, 1e7};
   m.add("select.units",
         "Some of a body's units: those of a pile, the parts of a mesh, or blocks, counted from 1 in their "
-        "order.",
+        "order. They keep their numbers where others are removed; pieces of a cut block keep its number.",
         {text("body").required().doc("by name"), list("numbers", whole_number).required()}, units,
         "cdem.Selection");
   m.add("select.faces",

@@ -43,8 +43,12 @@ Value pile(Session&, ModelObject& model, const Arguments& a) {
   geom::Pile now = first_pile(model, a.text("body"));
   const std::vector<Unit> units =
       cdem::units_of(model.simulation.model(), model.simulation.state(), a.text("body"));
-  for (std::size_t i = 0; i < units.size(); ++i)
-    now.poses[i] = geom::after(units[i].motion, now.poses[i]);
+  const std::vector<Block>& blocks = model.simulation.model().blocks;
+  std::vector<geom::Pose> poses; // of the units that are left
+  for (const Unit& unit : units)
+    poses.push_back(
+        geom::after(unit.motion, now.poses[static_cast<std::size_t>(blocks[unit.block].unit - 1)]));
+  now.poses = std::move(poses);
   return std::make_shared<PileObject>(std::move(now));
 }
 
@@ -118,6 +122,7 @@ Value furthest(ModelObject& model, const Arguments& a, double sign) {
   if (count > static_cast<std::int64_t>(units.size()))
     throw InputError("count", std::to_string(count),
                      "at most " + std::to_string(units.size()) + ", the units of \"" + a.text("body") + "\"");
+  const std::vector<Block>& blocks = model.simulation.model().blocks;
   std::vector<std::int64_t> order(units.size());
   std::iota(order.begin(), order.end(), 0);
   const auto level = [&](std::int64_t i) {
@@ -127,7 +132,8 @@ Value furthest(ModelObject& model, const Arguments& a, double sign) {
                    [&](std::int64_t i, std::int64_t j) { return level(i) > level(j); });
   Values numbers;
   for (std::int64_t i = 0; i < count; ++i)
-    numbers.emplace_back(order[static_cast<std::size_t>(i)] + 1);
+    numbers.emplace_back(static_cast<std::int64_t>(
+        blocks[units[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])].block].unit));
   return Table::list(std::move(numbers));
 }
 
@@ -142,7 +148,8 @@ void bind_units(Module& m) {
   Class& model = m.the_class("Model");
   const Field body = text("body").required().doc("name of a meshed body");
   model.add("pile",
-            "The units of a body as they lie now, without their deformation: a pile that can be scaled, "
+            "The units of a body that are left, as they lie now, without their deformation: a pile that can "
+            "be scaled, "
             "saved and be the shape of a body of another model.",
             {body}, pile, "cdem.Pile");
   model.add("pile_measures",

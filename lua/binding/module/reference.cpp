@@ -200,7 +200,7 @@ std::string reference() {
       "traction and "
       "principal stress are positive in tension.\n\n"
       "A *place* says where something acts. It is one of these, or a list of them:\n\n"
-      "- a side of the model's box, `\"x-\"` to `\"z+\"`, or `\"all\"`;\n"
+      "- a side of the box of the model as it was made, `\"x-\"` to `\"z+\"`, or `\"all\"`;\n"
       "- the name of a body, or a name given by `model:select`;\n"
       "- a `cdem.select.*` value;\n"
       "- a `function(x, y, z)` that gets undeformed places (m) and returns true or false.\n\n"
