@@ -61,7 +61,6 @@ CDEM_ARCHIVE(Interface, id, block_a, face_a, block_b, face_b, normal, joint, thi
 CDEM_ARCHIVE(InterfaceFrame, nodes_a, nodes_b, along_a, along_b, along, size, area, renewed)
 CDEM_ARCHIVE(BondPoint, node_a, node_b, weight_a, weight_b, normal, kn_area, ks_area, area, interface,
              one_to_one)
-CDEM_ARCHIVE(OuterFace, block, face, boundary, normal, area, node_area)
 CDEM_ARCHIVE(BlockChunk, blocks, nodes, batches)
 CDEM_ARCHIVE(RigidBody, block, mass, inertia, inverse_inertia, principal, axes)
 CDEM_ARCHIVE(FaceBatch, kn, area, place_a, place_b)

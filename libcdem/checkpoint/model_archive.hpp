@@ -7,6 +7,8 @@
 
 namespace cdem {
 
+CDEM_ARCHIVE(OuterFace, block, face, boundary, normal, area, node_area)
+
 void write(Writer&, const Model&);
 void read(Reader&, Model&);
 std::uint64_t hash(const Model&); // XXH64 of every member

@@ -5,9 +5,9 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/bond/water_work.hpp"
 #include "libcdem/model/build/interface_springs.hpp"
+#include "libcdem/model/face_fan.hpp"
 #include "libcdem/state/carry.hpp"
 #include "libcdem/state/places.hpp"
-#include "libgeom/mesh/star_mesh.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -23,23 +23,6 @@ std::vector<geom::Vec3> present_nodes(const Model& model, const State& state, co
   for (int node = block.node_begin; node < block.node_end; ++node)
     places.push_back(place_of(model, state, node));
   return places;
-}
-
-// The triangles of a face over its block's own nodes, seen from outside.
-std::vector<geom::Triangle> fan_of(const Model& model, int block, int face) {
-  const Block& b = model.blocks[block];
-  if (!b.meshed)
-    return geom::star_mesh(b.shape).fans[face];
-  std::vector<geom::Triangle> fan;
-  each_boundary_triangle(model, block, [&](int, const BoundaryTriangle& triangle) {
-    if (triangle.face != face)
-      return;
-    geom::Triangle nodes = triangle.nodes;
-    for (int& node : nodes)
-      node -= b.node_begin;
-    fan.push_back(nodes);
-  });
-  return fan;
 }
 
 geom::FaceOverlap present_overlap(const Model& model, const State& state, const Interface& interface,

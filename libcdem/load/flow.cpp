@@ -2,6 +2,7 @@
 
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/inner_shells.hpp"
+#include "libcdem/load/opened_faces.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -39,6 +40,11 @@ void each_flow_face(const Model& model, const State& state, const ResolvedFlow& 
     return std::array<geom::Vec3, 3>{place_of(model, state, nodes[0]), place_of(model, state, nodes[1]),
                                      place_of(model, state, nodes[2])};
   };
+  const auto block_face = [&](const OuterFace& face) {
+    const geom::Vec3 normal = present_normal(model, state, face);
+    for (const auto& [node, area] : face.node_area)
+      add.corner(node, area, normal);
+  };
   for (std::size_t i = 0; i < flow.faces.size(); ++i) {
     const OuterFace& face = model.outer_faces[flow.faces[i]];
     if (face.boundary >= 0) {
@@ -49,15 +55,13 @@ void each_flow_face(const Model& model, const State& state, const ResolvedFlow& 
       for (int k = 0; k < 3; ++k)
         add.corner(nodes[k], area / 3, normals[k]);
     } else { // the part of it that no other block covered when the model was made
-      const geom::Vec3 normal = present_normal(model, state, face);
-      for (const auto& [node, area] : face.node_area)
-        add.corner(node, area, normal);
+      block_face(face);
     }
   }
   if (!flow.new_faces)
     return;
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (!is_open(state.faces[batch], lane))
+    if (flow.meets[chunk.block] == 0 || !is_open(state.faces[batch], lane))
       return;
     const FaceNodes pair = face_nodes(model.mesh, chunk, batch, lane);
     for (const geom::Triangle& nodes : {pair.a, pair.outward_b()}) {
@@ -67,6 +71,9 @@ void each_flow_face(const Model& model, const State& state, const ResolvedFlow& 
         add.corner(node, 1, outward / 3);
     }
   });
+  for (const OuterFace& face : opened_faces(model, state))
+    if (flow.meets[face.block] != 0)
+      block_face(face);
 }
 
 } // namespace

@@ -12,9 +12,15 @@ void keep_water(const AskedWater& old, int first_node, AskedWater& block) {
     return;
   block.nodes = old.nodes;
   block.opened = old.opened;
+  block.bared = old.bared;
   for (geom::Triangle& triangle : block.opened)
     for (int& node : triangle)
       node += first_node - old.first_node;
+  for (OuterFace& face : block.bared) {
+    face.block = block.block;
+    for (auto& [node, area] : face.node_area)
+      node += first_node - old.first_node;
+  }
 }
 
 } // namespace

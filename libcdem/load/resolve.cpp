@@ -193,11 +193,29 @@ void add_boundaries(const Model& model, const Conditions& conditions, HeldNodes&
   }
 }
 
+// Blocks that a flow meets. One without an outer face goes with its body where all outer faces of that are met: a joint beside
+// it may open.
+std::vector<char> met_blocks(const Model& model, const std::vector<int>& faces) {
+  std::vector<char> outer(model.blocks.size(), 0), met(model.blocks.size(), 0),
+      partly(model.bodies.size(), 0);
+  for (int f = 0; f < static_cast<int>(model.outer_faces.size()); ++f) {
+    const int block = model.outer_faces[f].block;
+    outer[block] = 1;
+    (std::binary_search(faces.begin(), faces.end(), f) ? met[block] : partly[model.blocks[block].body]) = 1;
+  }
+  for (std::size_t b = 0; b < met.size(); ++b)
+    if (outer[b] == 0 && partly[model.blocks[b].body] == 0)
+      met[b] = 1;
+  return met;
+}
+
 void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
   ResolvedFlow resolved;
   resolved.faces = flow_faces(model, flow);
   resolved.normals = smooth_normals(model, resolved.faces);
   resolved.new_faces = flow.new_faces;
+  if (flow.new_faces)
+    resolved.meets = met_blocks(model, resolved.faces);
   resolved.load = r.varying.size();
   if (flow.water) {
     resolved.water = flow.water;
@@ -207,6 +225,9 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
     std::map<int, std::vector<int>> faces; // by block
     for (std::size_t i = 0; i < resolved.faces.size(); ++i)
       faces[model.outer_faces[resolved.faces[i]].block].push_back(static_cast<int>(i));
+    for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
+      if (!resolved.meets.empty() && resolved.meets[block] != 0)
+        faces[block];
     for (auto& [block, of_block] : faces) {
       BlockInWater& in_water = resolved.in_water.emplace_back();
       in_water.asked.block = block;

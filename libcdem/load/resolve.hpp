@@ -35,6 +35,7 @@ struct AskedWater {
   int block = 0, first_node = 0;
   std::vector<NodeInWater> nodes;     // of the block
   std::vector<geom::Triangle> opened; // by cracks, outward
+  std::vector<OuterFace> bared;       // on other blocks before (load/opened_faces.hpp)
 };
 
 struct BlockInWater {
@@ -42,6 +43,13 @@ struct BlockInWater {
   std::vector<int> faces;                        // into ResolvedFlow::faces
   std::size_t face_corners = 0;                  // of these
   std::size_t first_corner = 0, first_force = 0; // among those of the flow (place_water)
+
+  std::size_t corners() const { // with those of faces that have opened
+    std::size_t sum = face_corners + 3 * asked.opened.size();
+    for (const OuterFace& face : asked.bared)
+      sum += face.node_area.size();
+    return sum;
+  }
 };
 
 // A flow's pattern follows the faces: it is found again now and then. That of a field of water is placed in every step.
@@ -49,6 +57,7 @@ struct ResolvedFlow {
   geom::Vec3 direction = geom::Vec3::Zero(); // unit
   std::vector<int> faces;                    // Model::outer_faces
   std::vector<CornerNormals> normals;        // of these
+  std::vector<char> meets;                   // blocks whose new faces it meets too (n_blocks)
   bool new_faces = false;
   std::size_t load = 0; // its place in ResolvedConditions::varying
   // For a flow relative to the surface: its forces are found anew in every step; the amplitude of its load is 1.

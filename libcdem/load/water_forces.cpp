@@ -2,6 +2,7 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/load/flow.hpp"
+#include "libcdem/load/opened_faces.hpp"
 #include "libcdem/parallel/chunks.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -127,11 +128,13 @@ std::vector<double> wet_shares(const Model& model, const Block& block, const std
   return share;
 }
 
-// Faces of a block inside its mesh that cracks have opened, from both sides, outward.
+// Faces of a block that were not outside when the model was made: inside its mesh that cracks have opened, from both sides,
+// outward, and on other blocks.
 void find_opened(const Model& model, const State& state, ResolvedFlow& flow) {
   std::vector<AskedWater*> of_block(model.blocks.size(), nullptr);
   for (BlockInWater& in_water : flow.in_water) {
     in_water.asked.opened.clear();
+    in_water.asked.bared.clear();
     of_block[in_water.asked.block] = &in_water.asked;
   }
   if (!flow.new_faces)
@@ -143,6 +146,9 @@ void find_opened(const Model& model, const State& state, ResolvedFlow& flow) {
     of_block[chunk.block]->opened.push_back(pair.a);
     of_block[chunk.block]->opened.push_back(pair.outward_b());
   });
+  for (OuterFace& face : opened_faces(model, state))
+    if (AskedWater* const asked = of_block[face.block])
+      asked->bared.push_back(std::move(face));
 }
 
 // Writes the corners of the faces of a block, in their order.
@@ -254,7 +260,7 @@ void place_water(const Model& model, const State& state, Range nodes, int thread
     for (BlockInWater& in_water : flow.in_water) {
       in_water.first_corner = corners;
       in_water.first_force = nodes_in_water;
-      corners += drag ? in_water.face_corners + 3 * in_water.asked.opened.size() : 0;
+      corners += drag ? in_water.corners() : 0;
       nodes_in_water += in_water.asked.nodes.size();
     }
     // Forces on the corners, then those on the nodes.
@@ -268,7 +274,7 @@ void place_water(const Model& model, const State& state, Range nodes, int thread
       FlowCorner* const corner = flow.corners.data() + in_water.first_corner;
       std::pair<int, geom::Vec3>* const force = forces.data() + corners + in_water.first_force;
       if (block.node_begin >= nodes.end || block.node_end <= nodes.begin) {
-        std::fill_n(corner, drag ? in_water.face_corners + 3 * asked.opened.size() : 0,
+        std::fill_n(corner, drag ? in_water.corners() : 0,
                     FlowCorner{asked.first_node, geom::Vec3::Zero(), geom::Vec3::Zero()});
         std::fill_n(force, asked.nodes.size(), std::pair(asked.first_node, geom::Vec3(geom::Vec3::Zero())));
         return;
@@ -284,6 +290,8 @@ void place_water(const Model& model, const State& state, Range nodes, int thread
       }
       for (const geom::Triangle& opened : asked.opened)
         on_block.triangle(opened, nullptr);
+      for (const OuterFace& face : asked.bared)
+        on_block.block_face(face);
     });
     for (std::size_t i = 0; i < corners; ++i)
       forces[i].first = flow.corners[i].node;

@@ -346,6 +346,63 @@ TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][
   CHECK(wrench(s).force.x() == Approx(0.5 * density * 4 * 1.5 * 1.5));
 }
 
+TEST_CASE("water reaches the faces between blocks that no bond holds together", "[water][flow]") {
+  // Three blocks in a row, the middle one inside: each alone is carried by its own buoyancy.
+  const bool rigid = GENERATE(false, true), two_bodies = GENERATE(false, true);
+  CAPTURE(rigid, two_bodies);
+  const Vec3 size(0.4, 0.5, 0.6);
+  const cdem::Element element = rigid ? cdem::Element::rigid : cdem::Element::finite_volume;
+  cdem::BodySpec one = body("one", geom::grid({1.2, 0.5, 0.6}, {3, 1, 1}));
+  one.element = element;
+  std::vector<cdem::BodySpec> bodies{one};
+  std::vector<cdem::PairSpec> pairs;
+  if (two_bodies) { // never bonded
+    bodies[0].shape = geom::grid({0.8, 0.5, 0.6}, {2, 1, 1});
+    cdem::BodySpec other = body("other", geom::grid(size, {1, 1, 1}, {0.8, 0, 0}));
+    other.element = element;
+    bodies.push_back(other);
+    cdem::Joint dry;
+    dry.bonded = false;
+    pairs.push_back({"one", "other", dry});
+  }
+  System s(build(bodies, pairs));
+  s.conditions.flows = {in_water(cdem::uniform_water(still(5)), 0)};
+  const auto force_on = [&](int block) {
+    cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
+    cdem::update_external(r, s.state.time, &s.state.velocity);
+    Vec3 sum = Vec3::Zero();
+    for (int node = s.model.blocks[block].node_begin; node < s.model.blocks[block].node_end; ++node)
+      sum += vec(r.external[node]);
+    return sum;
+  };
+  const double one_side = weight * 0.5 * 0.6 * (5 - 0.3); // N, on a face across the row
+  const auto end = static_cast<int>(std::max_element(s.model.blocks.begin(), s.model.blocks.end(),
+                                                     [](const cdem::Block& a, const cdem::Block& b) {
+                                                       return a.mass.centroid.x() < b.mass.centroid.x();
+                                                     }) -
+                                    s.model.blocks.begin());
+  CHECK(force_on(end).x() == Approx(two_bodies ? 0 : -one_side).margin(1e-9 * one_side));
+  for (std::uint8_t& mode : s.state.bond_mode)
+    mode = static_cast<std::uint8_t>(cdem::BondMode::broken_tension);
+  for (int b = 0; b < 3; ++b)
+    CHECK((force_on(b) - weight * 0.12 * Vec3::UnitZ()).norm() < 1e-9 * one_side);
+  // A stream takes them only when asked.
+  cdem::Flow flow;
+  flow.on = cdem::Selection::of_body("one");
+  flow.direction = Vec3(-1, 0, 0);
+  flow.velocity = [](double) { return 2.0; };
+  flow.relative = false;
+  const double push = cdem::flow_pressure(2, flow.water_density) * 0.3;
+  for (const bool new_faces : {false, true}) {
+    flow.new_faces = new_faces;
+    s.conditions.flows = {flow};
+    double sum = 0;
+    for (int b = 0; b < 3; ++b)
+      sum -= force_on(b).x();
+    CHECK(sum == Approx((new_faces ? (two_bodies ? 2 : 3) : (two_bodies ? 0 : 1)) * push).margin(1e-9 * push));
+  }
+}
+
 TEST_CASE("a run in waves that is left and goes on ends in the same bits", "[water][resume]") {
   cdem::WaveGiven given;
   given.height = 0.4;

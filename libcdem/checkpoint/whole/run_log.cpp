@@ -86,9 +86,19 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
       require(asked.first_node == block.node_begin, "restart.flows", asked.first_node);
       require_length("restart.flows", asked.nodes.size(),
                      static_cast<std::size_t>(block.node_end - block.node_begin));
+      const auto require_own = [&](int node) {
+        require(node >= block.node_begin && node < block.node_end, "restart.flows", node);
+      };
       for (const geom::Triangle& triangle : asked.opened)
         for (const int node : triangle)
-          require(node >= block.node_begin && node < block.node_end, "restart.flows", node);
+          require_own(node);
+      for (const OuterFace& face : asked.bared) {
+        require(face.block == asked.block, "restart.flows", face.block);
+        require(face.face >= 0 && face.face < static_cast<int>(block.shape.faces.size()), "restart.flows",
+                face.face);
+        for (const auto& [node, area] : face.node_area)
+          require_own(node);
+      }
     }
     require(flow.corners.size() <= flow.forces.size(), "restart.flows", count(flow.corners.size()));
   }

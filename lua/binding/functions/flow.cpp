@@ -24,7 +24,10 @@ const Record<Flow> stream{
     {{vec3("direction").required().doc("of the flow; made a unit vector"), &Flow::direction},
      {place("on").standard(std::string("all")).doc("outer faces that may take it: one place")},
      {water_density(), &Flow::water_density},
-     {flag("new_faces").standard().doc("faces opened by cracks take the pressure too"), &Flow::new_faces}}};
+     {flag("new_faces")
+          .standard()
+          .doc("faces opened by cracks, and faces between blocks that no bond holds, take the pressure too"),
+      &Flow::new_faces}}};
 
 // The members of a flow that are not searched for.
 const Record<Flow> steady{
@@ -239,7 +242,8 @@ void bind_flow(Module& m) {
               fields.begin() + 5); // the velocity beside the direction
   fields[0].must = false;          // water has its own
   fields[2].doc("outer faces that may take it: one place; of water: a place or a list of places");
-  fields[4].doc("faces opened by cracks take the pressure too; always with water");
+  fields[4].doc("faces opened by cracks, and faces between blocks that no bond holds, take the pressure too; "
+                "always with water");
   model
       .add("flow",
            "Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha "

@@ -1,0 +1,23 @@
+#include "libcdem/model/face_fan.hpp"
+
+#include "libgeom/mesh/star_mesh.hpp"
+
+namespace cdem {
+
+std::vector<geom::Triangle> fan_of(const Model& model, int block, int face) {
+  const Block& b = model.blocks[block];
+  if (!b.meshed)
+    return geom::star_mesh(b.shape).fans[face];
+  std::vector<geom::Triangle> fan;
+  each_boundary_triangle(model, block, [&](int, const BoundaryTriangle& triangle) {
+    if (triangle.face != face)
+      return;
+    geom::Triangle nodes = triangle.nodes;
+    for (int& node : nodes)
+      node -= b.node_begin;
+    fan.push_back(nodes);
+  });
+  return fan;
+}
+
+} // namespace cdem
