@@ -197,7 +197,7 @@ void Warnings::of_initial_stress(const InitialStress& field) {
 // Faces between rock with and without initial stress carry half of it (load/initial_stress.cpp): a place between layers that
 // are given one by one was left out.
 void Warnings::of_unstressed_rock() {
-  if (of_.stage > 0 || model_.interfaces.empty())
+  if (of_.stage > 0 || model_.interfaces.empty() || given_stress_.empty())
     return;
   const State& state = of_.whole();
   std::vector<char> stressed(model_.blocks.size(), 0);

@@ -327,6 +327,19 @@ TEST_CASE("a joint set that makes no face is told of", "[lua]") {
   CHECK_THAT(none[0], Contains("set \"J\" made no face") && Contains("300 m apart"));
 }
 
+TEST_CASE("a plane that cuts nothing is told of", "[lua]") {
+  const auto at = [](const std::string& height) {
+    return warnings_of(
+        "local cdem = require 'cdem'\n"
+        "cdem.cut_by_plane{ shape = cdem.box{ size = {1, 1, 1} }, normal = {0, 0, 1}, point = {0, 0, " +
+        height + "}, name = 'fault' }");
+  };
+  CHECK(at("0.5").empty());
+  const auto missed = at("1.5");
+  REQUIRE(missed.size() == 1);
+  CHECK_THAT(missed[0], Contains("cut_by_plane: the plane crosses no block"));
+}
+
 TEST_CASE("dips and angles of bolts that look like radians are warned of", "[lua]") {
   const auto of = [](const std::string& dips) {
     return warnings_of("local cdem = require 'cdem'\n"
