@@ -205,6 +205,9 @@ bool Simulation::flow(const Flow& flow) {
   own.flows.push_back(flow);
   require_places(impl_->model, own);
   const ResolvedConditions resolved = resolve(impl_->model, impl_->whole(), changed);
+  if (resolved.flows.back().faces.empty())
+    throw geom::InputError("on", flow.on.text, "a place that a flow reaches",
+                           "all its faces belong to cavities that a mesh closes");
   if (!flow.water && !flow.new_faces &&
       flow_pattern(impl_->model, impl_->whole(), resolved.flows.back()).empty())
     throw geom::InputError("direction", geom::shown(flow.direction),

@@ -282,6 +282,10 @@ void require_one_gravity(const Conditions& conditions) {
       throw geom::InputError("gravity: water_density", fmt::format("{:g}", gravity.water_density),
                              "left out beside a flow whose water has a pressure",
                              "that pressure is the buoyancy already");
+    if (gravity.amplitude)
+      throw geom::InputError("gravity: amplitude", "a function of time",
+                             "left out beside a flow whose water has a pressure",
+                             "buoyancy would act whole on a part of the weight; let the water begin later");
     const double g = flow.water->gravity();
     if (gravity.turning)
       throw geom::InputError(

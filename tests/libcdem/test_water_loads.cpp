@@ -344,6 +344,11 @@ TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][
   System s(build({meshed("unit", hollow)}));
   s.conditions.flows = {flow};
   CHECK(wrench(s).force.x() == Approx(0.5 * density * 4 * 1.5 * 1.5));
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("unit", hollow)};
+  cdem::Simulation given(spec, 1, nullptr);
+  flow.on = cdem::Selection::in_box({{0.4, 0.4, 0.4}, {1.1, 1.1, 1.1}});
+  CHECK_THROWS_WITH(given.flow(flow), Catch::Contains("cavities that a mesh closes"));
 }
 
 TEST_CASE("water reaches the faces between blocks that no bond holds together", "[water][flow]") {
@@ -399,7 +404,8 @@ TEST_CASE("water reaches the faces between blocks that no bond holds together", 
     double sum = 0;
     for (int b = 0; b < 3; ++b)
       sum -= force_on(b).x();
-    CHECK(sum == Approx((new_faces ? (two_bodies ? 2 : 3) : (two_bodies ? 0 : 1)) * push).margin(1e-9 * push));
+    CHECK(sum ==
+          Approx((new_faces ? (two_bodies ? 2 : 3) : (two_bodies ? 0 : 1)) * push).margin(1e-9 * push));
   }
 }
 
@@ -459,4 +465,7 @@ TEST_CASE("bodies and the water that carries them have one gravity", "[water][in
   CHECK_THAT(error({0, 0, -1.62}, 9.81), Catch::Contains("must be (0, 0, -9.81) m/s2"));
   CHECK_THAT(error({0, -9.81, 0}, 9.81), Catch::Contains("gravity = {0, -9.81, 0}"));
   CHECK_THAT(error({1, 0, -9.81}, 9.81), Catch::Contains("level in z"));
+  s.conditions.gravity = gravity({0, 0, -9.81});
+  s.conditions.gravity->amplitude = [](double time) { return std::min(1.0, time); };
+  CHECK_THROWS_WITH(cdem::resolve(s.model, s.state, s.conditions), Catch::Contains("gravity: amplitude"));
 }
