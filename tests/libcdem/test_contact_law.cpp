@@ -174,6 +174,39 @@ TEST_CASE(
   CHECK(taken > 2 * given);
 }
 
+TEST_CASE(
+    "contact law: friction follows the mean of a force that vibrates, and in an impact the force itself",
+    "[contact][law]") {
+  const ContactLaw damped{1e8, 5e7, 0.5, 0.2};
+  const double deep = 1e-4, rests = 0.5 * damped.kn * deep; // m; N, its friction at rest
+  const auto slide = [&](Contact& c,
+                         double depth) { // N, the friction after one of 300 steps of an oscillation
+    ContactMotion m = motion(depth, {deep, 0, 0});
+    m.part_of_rest = cdem::part_of_rest(2 * testing::pi / 300, 1);
+    m.deformable = true;
+    advance(c, damped, m);
+    return c.shear.norm();
+  };
+  Contact standing = pressed(deep);
+  standing.at_rest = deep;
+  double sum = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const double friction = slide(standing, deep * (1 + 0.9 * std::sin(2 * testing::pi * i / 60)));
+    CHECK(friction == Approx(rests).epsilon(0.1));
+    sum += friction;
+  }
+  CHECK(sum / 6000 == Approx(rests).epsilon(0.01));
+  Contact hits;
+  hits.normal = Vec3::UnitZ();
+  double impulse = 0, of_force = 0;
+  for (int i = 1; i < 150; ++i) {
+    const double depth = deep * std::sin(testing::pi * i / 150);
+    impulse += slide(hits, depth);
+    of_force += 0.5 * damped.kn * depth;
+  }
+  CHECK(impulse == Approx(of_force).epsilon(0.02));
+}
+
 TEST_CASE("contact law: a relaxation finds a contact at rest as deep as it is", "[contact][law]") {
   Contact c = pressed(1e-4);
   c.at_rest = 3e-5;

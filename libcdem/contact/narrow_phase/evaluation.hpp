@@ -65,6 +65,7 @@ private:
   struct SideMotion {
     geom::Vec3 velocity;
     double acceleration = 0, local_acceleration = 0;
+    double omega2 = 0; // 1/s2, of an oscillation of the block on all its contacts
   };
   SideMotion motion_of_side(const ContactTriangle& side, const int* nodes, const double* weights, int count,
                             double force) const;

@@ -25,8 +25,9 @@ Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, c
   if (work_.motion.last_displacement[block] == 0)
     return {velocity}; // held: it does not turn round
   const Block& b = model_.blocks[block];
-  SideMotion side_motion{velocity, work_.block_forces[block] / (b.mass.volume * density),
-                         b.rigid >= 0 ? 0 : force * local};
+  const double mass = b.mass.volume * density;
+  SideMotion side_motion{velocity, work_.block_forces[block] / mass, b.rigid >= 0 ? 0 : force * local,
+                         work_.block_stiffness[block] / mass};
   if (const BlockMotion& motion = work_.block_motion[block]; motion.whole)
     side_motion.velocity = motion.velocity + motion.spin.cross(place - motion.centroid);
   else
@@ -41,6 +42,8 @@ void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const Con
   const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 3, force),
                    target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
   motion.acceleration = source.acceleration + target.acceleration;
+  motion.part_of_rest = part_of_rest(work_.step, std::sqrt(source.omega2 + target.omega2));
+  motion.deformable = model_.blocks[from.block].rigid < 0 || model_.blocks[to.block].rigid < 0;
   const double rests = part_at_rest(c, motion), closing = -velocity.dot(motion.normal), // m/s
       approach = (target.velocity - source.velocity).dot(motion.normal);
   const double reversed = reversible_speed(c, motion);
@@ -68,6 +71,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       c.shear = old->shear;
       c.damping = old->damping;
       c.at_rest = old->at_rest;
+      c.felt_force = old->felt_force;
     }
     c.depth = own ? old->depth : 0;
     c.reference_penetration =

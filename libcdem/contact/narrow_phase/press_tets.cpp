@@ -297,6 +297,7 @@ private:
                     ContactMotion& motion) const {
     motion.step = work_.step;
     motion.acceleration = acceleration;
+    motion.part_of_rest = part_of_rest(work_.step, std::sqrt(acceleration / pressed_now(c, motion)));
     motion.approach = part_of(closing, work_.step * reversible_speed(c, motion));
     motion.held_at_most = part_held(law, closing, 0, work_.step * work_.step * acceleration);
   }

@@ -36,32 +36,44 @@ BlockMotion motion_of(const Model& model, const State& state, const Block& block
 
 void sum_block_forces(const Model& model, const State& state, ContactWork& work) {
   work.block_forces.assign(model.blocks.size(), 0.0);
-  std::vector<ExactSum> on_rigid(model.rigid.size());
+  work.block_stiffness.assign(model.blocks.size(), 0.0);
+  struct Sums {
+    ExactSum force, stiffness;
+  };
+  std::vector<Sums> on_rigid(model.rigid.size());
   for (const Contact& c : state.contacts) {
     if (c.kind == Contact::tets) // within a block
       continue;
-    const double force = law_of(model, c).kn * c.effective_penetration();
+    const double stiffness = c.effective_penetration() > 0 ? law_of(model, c).kn : 0,
+                 force = stiffness * c.effective_penetration();
     const auto [a, b] = blocks_of(model, c);
     for (const int block : {a, b})
-      if (const int rigid = model.blocks[block].rigid; rigid < 0)
+      if (const int rigid = model.blocks[block].rigid; rigid < 0) {
         work.block_forces[block] += force;
-      else if (keeps(model, work, c))
-        on_rigid[rigid].add(force);
+        work.block_stiffness[block] += stiffness;
+      } else if (keeps(model, work, c)) {
+        on_rigid[rigid].force.add(force);
+        on_rigid[rigid].stiffness.add(stiffness);
+      }
   }
   if (!work.shared->alone() && !on_rigid.empty()) {
     Pack own;
-    for (const ExactSum& sum : on_rigid)
-      sum.tell(own);
+    for (const Sums& sums : on_rigid)
+      for (const ExactSum* sum : {&sums.force, &sums.stiffness})
+        sum->tell(own);
     const std::vector<std::string> heard = ranks().gather(own.text(), Ranks::Subject::pressed);
     for (int rank = 0; rank < work.shared->part().size; ++rank) {
       Unpack unpack(heard[rank]);
-      for (ExactSum& sum : on_rigid)
+      for (Sums& sums : on_rigid)
         if (rank != work.shared->part().rank)
-          sum.add_told(unpack);
+          for (ExactSum* sum : {&sums.force, &sums.stiffness})
+            sum->add_told(unpack);
     }
   }
-  for (std::size_t i = 0; i < on_rigid.size(); ++i)
-    work.block_forces[model.rigid[i].block] = on_rigid[i].value();
+  for (std::size_t i = 0; i < on_rigid.size(); ++i) {
+    work.block_forces[model.rigid[i].block] = on_rigid[i].force.value();
+    work.block_stiffness[model.rigid[i].block] = on_rigid[i].stiffness.value();
+  }
 }
 
 void find_block_motions(const Model& model, const State& state, ContactWork& work, int threads) {

@@ -8,7 +8,7 @@
 
 namespace cdem {
 
-// Writes ContactWork::block_forces, of State::contacts.
+// Writes ContactWork::block_forces and block_stiffness, of State::contacts.
 void sum_block_forces(const Model&, const State&, ContactWork&);
 
 // Writes ContactWork::block_motion. A block with broken faces has none: its fragments move by themselves.

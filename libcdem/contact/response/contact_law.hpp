@@ -2,7 +2,7 @@
 //
 //   Fn = kn (d - d0)+            d depth below the target's surface; d0 = 0, or the depth at which it was found
 //   Fs = R Fs - ks du_s          R turns it with the normal, and about it with the two faces; du_s slip of this step
-//   |Fs| <= Fn tan(phi)
+//   |Fs| <= N tan(phi)          N the normal force; of deformable bodies with restitution a mean of it, see below
 //
 // With a coefficient of restitution e < 1 the contact returns the fraction e^2 of the energy 1/2 k d^2 that goes into it,
 // k = 2 kn / (1 + e^2). Beside the spring kn acts a force D, with r = (1 - e^2) / (1 + e^2):
@@ -15,14 +15,24 @@
 // gives no energy back, whatever the waves in the bodies do, but for the half step after the contact turns round.
 //
 //   v  = (1 - w) v_bodies + w v_contact,  v0 = max(a dt, w sqrt(a p)),  w = min(1, p_rest / p)
-//   d p_rest / dt = (p - p_rest) sqrt(a / p) / 60
+//   d p_rest / dt = (p - p_rest) omega / 60,   omega^2: sum over both bodies of K / m
 //
 // v_bodies: speed at which the bodies approach, each moving as a whole; v_contact: at which the contact closes; a: sum of
-// the normal forces on each body over its mass, so sqrt(p / a) is the time scale of an oscillation. In an impact w is next to nothing, and D
-// is there in full down to the speed that the forces of one step reverse. A contact that carries for long has w = 1, and v0 is the
-// speed that its forces reverse within its depth: what is slower vibrates about its rest, and D is at most in proportion to v, as
-// that of a dashpot with r / 2 of the critical damping. If D jumped with each change of direction, so would the limit of friction, and a body would creep down a slope far
-// below its friction.
+// the normal forces on each body over its mass; K: sum of kn of the contacts that press a body, m its mass. sqrt(p / a) and
+// 1 / omega are time scales of an oscillation. In an impact w is next to nothing, and D is there in full down to the speed
+// that the forces of one step reverse. A contact that carries for long has w = 1, and v0 is the speed that its forces reverse
+// within its depth: what is slower vibrates about its rest, and D is at most in proportion to v, as that of a dashpot with
+// r / 2 of the critical damping. If D jumped with each change of direction, so would the limit of friction, and a body
+// would creep down a slope far below its friction.
+//
+// A sliding contact does not feel a change of its normal force at once (Prakash 1998, J. Tribol. 120, 97-102; Cochard and
+// Rice 2000, J. Geophys. Res. 105, 25891-25907). If it did, friction would feed the vibrations of a deformable body that
+// slides, and they would take a part of its friction (Adams 1998, J. Appl. Mech. 65, 470-475). So where a body is deformable
+// and e < 1, friction follows a mean N of Fn + D:
+//
+//   dN / dt = (Fn + D - N) omega / (60 u^3),   u = min(1, kn p_rest / N)
+//
+// In an impact u is next to nothing, and N is the force itself.
 //
 // An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
 // a millimetre would throw a unit into the air.
@@ -62,6 +72,8 @@ struct ContactMotion {
   double approach = 0;                    // s of restitution: 1 the bodies approach, -1 they separate
   double acceleration = 0;                // m/s2, a of restitution
   double held_at_most = 0;                // part of the damping force that may act, part_held
+  double part_of_rest = 0;                // part of a mean over the time of rest that the step takes
+  bool deformable = false;                // one of its two bodies is, and restitution knows them
   bool in_relaxation = false;             // its steps are no times, and it finds the contact at rest
 };
 
@@ -130,15 +142,18 @@ inline double reversible_speed(const Contact& c, const ContactMotion& m) {
                   part_at_rest(c, m) * std::sqrt(m.acceleration * pressed_now(c, m)));
 }
 
+// Part of a mean over some ten oscillations, twenty times as long as an impact, that a step takes. omega: 1/s.
+inline double part_of_rest(double step, double omega) {
+  return std::min(1.0, step * omega / 60);
+}
+
 // Advances the mean penetration of restitution.
 inline void advance_rest(Contact& c, const ContactMotion& m) {
-  constexpr double time_scales = 60; // some ten oscillations, twenty times as long as an impact
   const double pressed = c.effective_penetration();
   if (m.in_relaxation || !(pressed > 0))
     c.at_rest = pressed;
   else
-    c.at_rest +=
-        std::min(1.0, m.step * std::sqrt(m.acceleration / pressed) / time_scales) * (pressed - c.at_rest);
+    c.at_rest += m.part_of_rest * (pressed - c.at_rest);
 }
 
 // Advances the force of restitution of a contact that is as deep as it is now. closing: m, in the step. Returns what it
@@ -161,6 +176,17 @@ inline double normal_force(const Contact& c, const ContactLaw& law) {
   return law.kn * c.effective_penetration() + c.damping;
 }
 
+// Advances the force that friction follows, of a contact that is as deep as it is now.
+inline void advance_felt_force(Contact& c, const ContactLaw& law, const ContactMotion& m) {
+  const double force = normal_force(c, law), before = c.felt_force;
+  c.felt_force = force;
+  if (!m.deformable || m.in_relaxation || !(before > 0) || !(c.effective_penetration() > 0))
+    return;
+  const double u = std::min(1.0, law.kn * c.at_rest / before), fades = u * u * u;
+  if (m.part_of_rest < fades)
+    c.felt_force = before + m.part_of_rest / fades * (force - before);
+}
+
 // Advances the contact. Returns the energy that friction and damping took: the work of shear force and damping by the
 // trapezoidal rule, which is what central differences do, less what they store more. With F0 the turned force before the
 // step, T the trial force and F1 = T limit / |T| that of friction is (F0 + F1) . (T - F1) / (2 ks), and what turning took
@@ -178,7 +204,8 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   ContactLoss loss;
   if (law.damping_ratio > 0)
     loss.damping = advance_damping(c, law, m, -m.slid.dot(m.normal));
-  const double trial = shear.norm(), limit = friction_limit(normal_force(c, law), law.tan_friction);
+  advance_felt_force(c, law, m);
+  const double trial = shear.norm(), limit = friction_limit(c.felt_force, law.tan_friction);
   const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
   if (law.ks <= 0)

@@ -93,7 +93,8 @@ const Record<Joint> any_joint{{{flag("bonded"), &Joint::bonded}, {flag("glued"),
                        .standard()
                        .doc("coefficient of restitution of the contact of bodies that move far: speed "
                             "after over speed before an impact, as far as the contact and not waves "
-                            "within the bodies decide it; 1: the contact loses nothing but by friction"),
+                            "within the bodies decide it; 1: the contact loses nothing but by friction. "
+                            "Give less than 1 where deformable bodies slide"),
                    &Joint::restitution}}};
 
 const Record<StrengthScatter> weibull{
