@@ -30,7 +30,7 @@
 // slides, and they would take a part of its friction (Adams 1998, J. Appl. Mech. 65, 470-475). So where a body is deformable
 // and e < 1, friction follows a mean N of Fn + D:
 //
-//   dN / dt = (Fn + D - N) omega / (60 u^3),   u = min(1, kn p_rest / N)
+//   dN / dt = (Fn + D - N) omega / (60 u^3),   u = min(1, 2 kn p_rest / max(N, kn p))
 //
 // In an impact u is next to nothing, and N is the force itself.
 //
@@ -182,7 +182,8 @@ inline void advance_felt_force(Contact& c, const ContactLaw& law, const ContactM
   c.felt_force = force;
   if (!m.deformable || m.in_relaxation || !(before > 0) || !(c.effective_penetration() > 0))
     return;
-  const double u = std::min(1.0, law.kn * c.at_rest / before), fades = u * u * u;
+  const double most = std::max(before, law.kn * c.effective_penetration()),
+               u = std::min(1.0, 2 * law.kn * c.at_rest / most), u3 = u * u * u, fades = u3 * u3;
   if (m.part_of_rest < fades)
     c.felt_force = before + m.part_of_rest / fades * (force - before);
 }
