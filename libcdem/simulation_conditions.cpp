@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace cdem {
 namespace {
@@ -298,7 +299,19 @@ void Simulation::check_run(double begin, double end) {
     ask(pressure.volume);
   }
   if (c.gravity) {
-    ask(c.gravity->amplitude);
+    constexpr double rounded = 5e-3;
+    const bool floats = std::any_of(c.flows.begin(), c.flows.end(), [](const Flow& flow) {
+      return flow.water && flow.water->has_pressure();
+    });
+    const Amplitude& amplitude = c.gravity->amplitude;
+    if (amplitude)
+      ask(std::function<void(double)>([&](double time) {
+        if (const double part = amplitude(time); floats && !(std::abs(part - 1) < rounded))
+          throw geom::InputError(
+              "gravity: amplitude", fmt::format("{:g} at t = {:g} s", part, time),
+              "1 beside a flow whose water has a pressure",
+              "the whole buoyancy would act on a part of the weight; let the water begin later");
+      }));
     ask(c.gravity->turning);
   }
   impl_->warnings.look_for_dry_flows(begin, end);

@@ -41,6 +41,7 @@ void take_names(const Model& built, Model& then) {
 CDEM_ARCHIVE(FlowCorner, node, inward, stream)
 CDEM_ARCHIVE(WaterPoint, velocity, acceleration, pressure, surface, pressure_gradient, surface_slope)
 CDEM_ARCHIVE(NodeInWater, place, water, inertia)
+CDEM_ARCHIVE(BaredFace, face, parted)
 CDEM_ARCHIVE(AskedWater, block, first_node, nodes, opened, bared)
 CDEM_ARCHIVE(FlowPatterns::OfFlow, forces, corners, asked)
 CDEM_ARCHIVE(FlowPatterns, flows, water_mass)

@@ -19,6 +19,7 @@ void check_blocks(const Model& model) {
   Follow nodes("blocks.nodes", 0), tets("blocks.tets", 0);
   for (const Block& block : model.blocks) {
     below("blocks.body", block.body, model.bodies.size());
+    require(block.unit >= 1 && block.unit <= model.bodies[block.body].units, "blocks.unit", block.unit);
     check_shape(block.shape);
     nodes(block.node_begin, block.node_end);
     tets(block.tet_begin, block.tet_end);

@@ -61,7 +61,7 @@ void each_flow_face(const Model& model, const State& state, const ResolvedFlow& 
   if (!flow.new_faces)
     return;
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (flow.meets[chunk.block] == 0 || !is_open(state.faces[batch], lane))
+    if (flow.meets[chunk.block] == Met::nothing || !is_open(state.faces[batch], lane))
       return;
     const FaceNodes pair = face_nodes(model.mesh, chunk, batch, lane);
     for (const geom::Triangle& nodes : {pair.a, pair.outward_b()}) {
@@ -71,9 +71,9 @@ void each_flow_face(const Model& model, const State& state, const ResolvedFlow& 
         add.corner(node, 1, outward / 3);
     }
   });
-  for (const OuterFace& face : opened_faces(model, state))
-    if (flow.meets[face.block] != 0)
-      block_face(face);
+  for (const BaredFace& bared : opened_faces(model, state, flow.meets))
+    if (bared.parted)
+      block_face(bared.face);
 }
 
 } // namespace

@@ -16,7 +16,7 @@ void keep_water(const AskedWater& old, int first_node, AskedWater& block) {
   for (geom::Triangle& triangle : block.opened)
     for (int& node : triangle)
       node += first_node - old.first_node;
-  for (OuterFace& face : block.bared) {
+  for (auto& [face, parted] : block.bared) {
     face.block = block.block;
     for (auto& [node, area] : face.node_area)
       node += first_node - old.first_node;

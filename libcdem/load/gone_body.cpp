@@ -1,6 +1,7 @@
 #include "libcdem/load/gone_body.hpp"
 
 #include "libcdem/model/model.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -30,8 +31,10 @@ void require_places(const Model& model, const Conditions& conditions) {
       throw geom::InputError("on", on.text, "a body of which something is left",
                              "all of \"" + on.body + "\" has been removed");
     if (selected(model, on).empty())
-      throw geom::InputError("on", on.text, std::string("a place that holds ") + what,
-                             "nothing of the model lies there; `cdem check` prints the model's box");
+      throw geom::InputError(
+          "on", on.text, std::string("a place that holds ") + what,
+          "nothing of the model lies there; sides are those of the box in which it was made, from " +
+              geom::shown(model.built_box.min) + " to " + geom::shown(model.built_box.max) + " m");
   };
   const auto require_nodes = [&](const auto& of_a_kind) {
     for (const auto& condition : of_a_kind)

@@ -1,9 +1,10 @@
 #include "libcdem/load/opened_faces.hpp"
 
+#include "libcdem/bond/interface_frame.hpp"
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/model/face_fan.hpp"
 
 #include <map>
-#include <set>
 
 namespace cdem {
 namespace {
@@ -24,49 +25,81 @@ NodeAreas whole_face(const Model& model, const Place& place) {
   return areas;
 }
 
+bool has_parted(const Model& model, const State& state, const Interface& interface) {
+  constexpr double wide = 0.01;
+  if (released(state, interface) || interface.point_end == interface.point_begin)
+    return true;
+  double area = 0, open = 0;
+  for (int p = interface.point_begin; p < interface.point_end; ++p) {
+    const BondPoint& point = model.points[p];
+    area += point.area;
+    open += point.area * local_jump(model, state.displacement, p).dot(point.normal);
+  }
+  return open >
+         wide * area * std::min(model.blocks[interface.block_a].size, model.blocks[interface.block_b].size);
+}
+
+// What is known of a face that some open interface lies on.
+struct Opening {
+  bool parted = true; // all these interfaces have
+  NodeAreas covered;  // m2
+};
+
 } // namespace
 
-std::vector<OuterFace> opened_faces(const Model& model, const State& state) {
+std::vector<BaredFace> opened_faces(const Model& model, const State& state, const std::vector<Met>& met) {
   constexpr double nothing = 1e-9; // of a face
   const auto covers = [&](int point) {
     return is_intact(state.bond_mode[point]) ||
            (!state.water_pressure.empty() && state.water_pressure[point] > 0);
   };
-  std::set<Place> open;
+  const auto reaches = [&](int block, int beyond) {
+    return met[block] == Met::whole || (met[block] == Met::places && met[beyond] != Met::nothing);
+  };
+  std::map<Place, Opening> open;
   for (const Interface& interface : model.interfaces) {
     bool whole = interface.point_end > interface.point_begin;
     for (int p = interface.point_begin; whole && p < interface.point_end; ++p)
       whole = covers(p);
-    if (!whole) {
-      open.insert({interface.block_a, interface.face_a});
-      open.insert({interface.block_b, interface.face_b});
-    }
+    if (whole)
+      continue;
+    const bool parted = has_parted(model, state, interface);
+    const auto add = [&](int block, int face, int beyond) {
+      if (!reaches(block, beyond))
+        return;
+      Opening& opening = open[{block, face}];
+      opening.parted = opening.parted && parted;
+    };
+    add(interface.block_a, interface.face_a, interface.block_b);
+    add(interface.block_b, interface.face_b, interface.block_a);
   }
   if (open.empty())
     return {};
-  std::map<Place, NodeAreas> covered;
   const auto cover = [&](const Place& place, int node, double area) {
-    if (open.count(place) != 0)
-      covered[place][node] += area;
+    if (const auto found = open.find(place); found != open.end())
+      found->second.covered[node] += area;
   };
   for (const OuterFace& face : model.outer_faces)
     for (const auto& [node, area] : face.node_area)
       cover({face.block, face.face}, node, area);
-  for (const Interface& interface : model.interfaces)
+  for (const Interface& interface : model.interfaces) {
+    const int a = interface.block_a, b = interface.block_b;
     for (int p = interface.point_begin; p < interface.point_end; ++p)
-      if (covers(p))
-        for (int k = 0; k < 3; ++k) {
-          const BondPoint& point = model.points[p];
-          cover({interface.block_a, interface.face_a}, point.node_a[k], point.area * point.weight_a[k]);
-          cover({interface.block_b, interface.face_b}, point.node_b[k], point.area * point.weight_b[k]);
-        }
-  std::vector<OuterFace> faces;
-  for (const Place& place : open) {
+      for (int k = 0; k < 3; ++k) {
+        const BondPoint& point = model.points[p];
+        if (covers(p) || !reaches(a, b))
+          cover({a, interface.face_a}, point.node_a[k], point.area * point.weight_a[k]);
+        if (covers(p) || !reaches(b, a))
+          cover({b, interface.face_b}, point.node_b[k], point.area * point.weight_b[k]);
+      }
+  }
+  std::vector<BaredFace> faces;
+  for (const auto& [place, opening] : open) {
     NodeAreas bare = whole_face(model, place);
     double whole = 0;
     for (const auto& [node, area] : bare)
       whole += area;
-    for (const auto& [node, area] : covered[place])
+    for (const auto& [node, area] : opening.covered)
       bare[node] -= area;
     OuterFace face;
     face.block = place.first;
@@ -77,7 +110,7 @@ std::vector<OuterFace> opened_faces(const Model& model, const State& state) {
     if (!(face.area > nothing * whole))
       continue;
     face.node_area.assign(bare.begin(), bare.end());
-    faces.push_back(std::move(face));
+    faces.push_back({std::move(face), opening.parted});
   }
   return faces;
 }

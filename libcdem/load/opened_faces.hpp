@@ -5,9 +5,23 @@
 
 namespace cdem {
 
-// By block and face, ascending, as outer faces: node_area is the part that lay on other blocks when the model was made, less
-// what bonds that hold still cover. A face that is left so is bare whatever lies on it now: what presses there takes the same
-// pressure from the other side. Springs that stand under water of their own (model:water) cover too.
-std::vector<OuterFace> opened_faces(const Model&, const State&);
+// How much of a block a flow meets.
+enum class Met : char {
+  nothing,
+  places,
+  whole
+}; // places: some of its outer faces; whole: it, its body or everything was named
+
+// A face that lay on other blocks when the model was made. node_area: that part, less what bonds that hold still cover.
+struct BaredFace {
+  OuterFace face;
+  bool parted =
+      false; // by more than a hundredth of the smaller block: a stream gets in; a pressure always does
+};
+
+// By block and face, ascending: of blocks that are met whole, and where those on both sides are met. So the pressures on the two
+// sides of a closed joint cancel, and water in front of a wall pushes it. Springs that stand under water of their own
+// (model:water) cover like bonds.
+std::vector<BaredFace> opened_faces(const Model&, const State&, const std::vector<Met>&);
 
 } // namespace cdem

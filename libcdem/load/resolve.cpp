@@ -193,19 +193,21 @@ void add_boundaries(const Model& model, const Conditions& conditions, HeldNodes&
   }
 }
 
-// Blocks that a flow meets. One without an outer face goes with its body where all outer faces of that are met: a joint beside
-// it may open.
-std::vector<char> met_blocks(const Model& model, const std::vector<int>& faces) {
-  std::vector<char> outer(model.blocks.size(), 0), met(model.blocks.size(), 0),
-      partly(model.bodies.size(), 0);
-  for (int f = 0; f < static_cast<int>(model.outer_faces.size()); ++f) {
-    const int block = model.outer_faces[f].block;
-    outer[block] = 1;
-    (std::binary_search(faces.begin(), faces.end(), f) ? met[block] : partly[model.blocks[block].body]) = 1;
-  }
-  for (std::size_t b = 0; b < met.size(); ++b)
-    if (outer[b] == 0 && partly[model.blocks[b].body] == 0)
-      met[b] = 1;
+// Blocks without an outer face are met where they are named: a joint beside one may open.
+std::vector<Met> met_blocks(const Model& model, const Flow& flow, const std::vector<int>& faces) {
+  std::vector<Met> met(model.blocks.size(), Met::nothing);
+  for (const int face : faces)
+    met[model.outer_faces[face].block] = Met::places;
+  const auto name = [&](const Selection& on) {
+    using Kind = Selection::Kind;
+    if (on.kind != Kind::all && on.kind != Kind::body && on.kind != Kind::units)
+      return;
+    for (int b = 0; b < static_cast<int>(met.size()); ++b)
+      if (selects_block(model, on, b))
+        met[b] = Met::whole;
+  };
+  name(flow.on);
+  std::for_each(flow.also.begin(), flow.also.end(), name);
   return met;
 }
 
@@ -215,7 +217,7 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
   resolved.normals = smooth_normals(model, resolved.faces);
   resolved.new_faces = flow.new_faces;
   if (flow.new_faces)
-    resolved.meets = met_blocks(model, resolved.faces);
+    resolved.meets = met_blocks(model, flow, resolved.faces);
   resolved.load = r.varying.size();
   if (flow.water) {
     resolved.water = flow.water;
@@ -226,7 +228,7 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
     for (std::size_t i = 0; i < resolved.faces.size(); ++i)
       faces[model.outer_faces[resolved.faces[i]].block].push_back(static_cast<int>(i));
     for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
-      if (!resolved.meets.empty() && resolved.meets[block] != 0)
+      if (flow.new_faces && resolved.meets[block] != Met::nothing)
         faces[block];
     for (auto& [block, of_block] : faces) {
       BlockInWater& in_water = resolved.in_water.emplace_back();
@@ -282,10 +284,6 @@ void require_one_gravity(const Conditions& conditions) {
       throw geom::InputError("gravity: water_density", fmt::format("{:g}", gravity.water_density),
                              "left out beside a flow whose water has a pressure",
                              "that pressure is the buoyancy already");
-    if (gravity.amplitude)
-      throw geom::InputError("gravity: amplitude", "a function of time",
-                             "left out beside a flow whose water has a pressure",
-                             "buoyancy would act whole on a part of the weight; let the water begin later");
     const double g = flow.water->gravity();
     if (gravity.turning)
       throw geom::InputError(

@@ -5,6 +5,7 @@
 #include "libcdem/load/conditions.hpp"
 #include "libcdem/load/crack_pressure.hpp"
 #include "libcdem/load/free_field_column.hpp"
+#include "libcdem/load/opened_faces.hpp"
 #include "libcdem/load/smooth_normals.hpp"
 #include "libcdem/state/state.hpp"
 
@@ -35,7 +36,7 @@ struct AskedWater {
   int block = 0, first_node = 0;
   std::vector<NodeInWater> nodes;     // of the block
   std::vector<geom::Triangle> opened; // by cracks, outward
-  std::vector<OuterFace> bared;       // on other blocks before (load/opened_faces.hpp)
+  std::vector<BaredFace> bared;       // on other blocks before
 };
 
 struct BlockInWater {
@@ -46,8 +47,8 @@ struct BlockInWater {
 
   std::size_t corners() const { // with those of faces that have opened
     std::size_t sum = face_corners + 3 * asked.opened.size();
-    for (const OuterFace& face : asked.bared)
-      sum += face.node_area.size();
+    for (const BaredFace& bared : asked.bared)
+      sum += bared.face.node_area.size();
     return sum;
   }
 };
@@ -57,7 +58,7 @@ struct ResolvedFlow {
   geom::Vec3 direction = geom::Vec3::Zero(); // unit
   std::vector<int> faces;                    // Model::outer_faces
   std::vector<CornerNormals> normals;        // of these
-  std::vector<char> meets;                   // blocks whose new faces it meets too (n_blocks)
+  std::vector<Met> meets;                    // of each block; with new_faces
   bool new_faces = false;
   std::size_t load = 0; // its place in ResolvedConditions::varying
   // For a flow relative to the surface: its forces are found anew in every step; the amplitude of its load is 1.

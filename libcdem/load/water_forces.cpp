@@ -146,9 +146,8 @@ void find_opened(const Model& model, const State& state, ResolvedFlow& flow) {
     of_block[chunk.block]->opened.push_back(pair.a);
     of_block[chunk.block]->opened.push_back(pair.outward_b());
   });
-  for (OuterFace& face : opened_faces(model, state))
-    if (AskedWater* const asked = of_block[face.block])
-      asked->bared.push_back(std::move(face));
+  for (BaredFace& bared : opened_faces(model, state, flow.meets))
+    of_block[bared.face.block]->bared.push_back(std::move(bared));
 }
 
 // Writes the corners of the faces of a block, in their order.
@@ -186,12 +185,13 @@ public:
     }
   }
 
-  void block_face(const OuterFace& face) {
+  // drag: a stream reaches it.
+  void block_face(const OuterFace& face, bool drag = true) {
     const geom::Vec3 normal = present_normal(model_, state_, face);
     for (const auto& [node, area] : face.node_area) {
       const double wet = at(node).wet() ? area : 0;
       force_[node - first_].second -= at(node).pressure * wet * normal;
-      add(node, -wet * normal);
+      add(node, drag ? geom::Vec3(-wet * normal) : geom::Vec3(geom::Vec3::Zero()));
     }
   }
 
@@ -290,8 +290,8 @@ void place_water(const Model& model, const State& state, Range nodes, int thread
       }
       for (const geom::Triangle& opened : asked.opened)
         on_block.triangle(opened, nullptr);
-      for (const OuterFace& face : asked.bared)
-        on_block.block_face(face);
+      for (const BaredFace& bared : asked.bared)
+        on_block.block_face(bared.face, bared.parted);
     });
     for (std::size_t i = 0; i < corners; ++i)
       forces[i].first = flow.corners[i].node;

@@ -337,7 +337,7 @@ TEST_CASE("a plane that cuts nothing is told of", "[lua]") {
   CHECK(at("0.5").empty());
   const auto missed = at("1.5");
   REQUIRE(missed.size() == 1);
-  CHECK_THAT(missed[0], Contains("cut_by_plane: the plane crosses no block"));
+  CHECK_THAT(missed[0], Contains("cut_by_plane: the plane misses the shape"));
 }
 
 TEST_CASE("dips and angles of bolts that look like radians are warned of", "[lua]") {

@@ -92,7 +92,7 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
       for (const geom::Triangle& triangle : asked.opened)
         for (const int node : triangle)
           require_own(node);
-      for (const OuterFace& face : asked.bared) {
+      for (const auto& [face, parted] : asked.bared) {
         require(face.block == asked.block, "restart.flows", face.block);
         require(face.face >= 0 && face.face < static_cast<int>(block.shape.faces.size()), "restart.flows",
                 face.face);

@@ -213,7 +213,7 @@ Value critical_flow(Session& session, ModelObject& model, const Arguments& a) {
           "critical_flow: nothing broke off up to max_velocity = " + number_text(options.max_velocity) +
           (simulation.counts().bonds > 0 ? " m/s; raise it"
                                          : " m/s: the model has no bonds; give its bodies a joint"));
-    Value row = flow_record({result, simulation.model().box, held});
+    Value row = flow_record({result, simulation.model().built_box, held});
     add_mass_scaling(session, "critical_flow", options.mass_scaling, result.time_step, result.scaled, row);
     return row;
   });

@@ -231,12 +231,12 @@ Value cut_by_plane(Session& session, Object*, const Arguments& a) {
   options.crossing = optional_box(a, "crossing");
   const geom::Assembly& whole = a.object<AssemblyObject>("shape")->assembly;
   geom::Assembly parts = geom::cut_by_plane(whole, geom::Plane::through(a.vec3("point"), normal), options);
-  const std::vector<std::string> cut = geom::cut_names(parts);
-  if (parts.blocks.size() == whole.blocks.size() &&
-      (options.name.empty() || std::find(cut.begin(), cut.end(), options.name) == cut.end()))
-    session.warn("cut_by_plane: the plane crosses no block" +
-                 std::string(options.inside || options.crossing ? " that inside and crossing leave" : "") +
-                 ", so nothing was cut; shape:box() tells where the blocks are");
+  const geom::Plane plane = geom::Plane::through(a.vec3("point"), normal);
+  const geom::Box box = geom::bounding_box(whole);
+  const double reach = 0.5 * plane.normal.cwiseAbs().dot(box.size());
+  if (!whole.blocks.empty() && std::abs(plane.level(box.centre())) > (1 + 1e-9) * reach)
+    session.warn(
+        "cut_by_plane: the plane misses the shape, so nothing was cut; shape:box() tells where it is");
   const Splinters splinters = splinters_of(parts);
   if (const std::int64_t made_here = splinters.count - splinters_of(whole).count; made_here > 0)
     session.warn("cut_by_plane: " + geom::counted(made_here, "block") +

@@ -46,8 +46,12 @@ Value pile(Session&, ModelObject& model, const Arguments& a) {
   const std::vector<Block>& blocks = model.simulation.model().blocks;
   std::vector<geom::Pose> poses; // of the units that are left
   for (const Unit& unit : units)
-    poses.push_back(
-        geom::after(unit.motion, now.poses[static_cast<std::size_t>(blocks[unit.block].unit - 1)]));
+    if (static_cast<std::size_t>(blocks[unit.block].unit) >
+        now.poses.size()) // of a saved state of another script
+      throw InputError("body", "\"" + a.text("body") + "\"", "the body that this script made of a pile");
+    else
+      poses.push_back(
+          geom::after(unit.motion, now.poses[static_cast<std::size_t>(blocks[unit.block].unit - 1)]));
   now.poses = std::move(poses);
   return std::make_shared<PileObject>(std::move(now));
 }

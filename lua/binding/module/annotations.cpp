@@ -97,7 +97,7 @@ std::string annotations() {
   for (const Constant& c : all.constants)
     out += "---@field " + c.name + " string " + c.doc + "\n";
   out += "local cdem = {}\n\n";
-  out += "---A place: a side of the model's box (\"x-\" .. \"z+\"), \"all\", a body, a name given by "
+  out += "---A place: a side of the box of the model as made (\"x-\" .. \"z+\"), \"all\", a body, or one by "
          "model:select, a\n"
          "---cdem.select.* value, a function(x, y, z) of undeformed places (m), or a list of these.\n"
          "---@alias cdem.Place string|cdem.Selection|(fun(x: number, y: number, z: number): "
