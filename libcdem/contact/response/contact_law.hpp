@@ -30,7 +30,7 @@
 // slides, and they would take a part of its friction (Adams 1998, J. Appl. Mech. 65, 470-475). So where a body is deformable
 // and e < 1, friction follows a mean N of Fn + D:
 //
-//   dN / dt = (Fn + D - N) omega / (60 u^3),   u = min(1, 2 kn p_rest / max(N, kn p))
+//   dN / dt = (Fn + D - N) omega / (60 u^6),   u = min(1, 2 kn p_rest / max(N, kn p))
 //
 // In an impact u is next to nothing, and N is the force itself.
 //
