@@ -5,18 +5,14 @@
 
 namespace cdem {
 
-// How much of a block a flow meets.
-enum class Met : char {
-  nothing,
-  places,
-  whole
-}; // places: some of its outer faces; whole: it, its body or everything was named
+// What a flow meets of a block: some of its outer faces, or all of it, where the block, its body or everything was named.
+enum class Met : char { nothing, places, whole };
 
-// A face that lay on other blocks when the model was made. node_area: that part, less what bonds that hold still cover.
+// A face that lay on other blocks when the model was made. node_area: that part, less what bonds that hold still cover. A
+// pressure always gets in, a stream where the faces have parted by more than a hundredth of the smaller block.
 struct BaredFace {
   OuterFace face;
-  bool parted =
-      false; // by more than a hundredth of the smaller block: a stream gets in; a pressure always does
+  bool parted = false;
 };
 
 // By block and face, ascending: of blocks that are met whole, and where those on both sides are met. So the pressures on the two
