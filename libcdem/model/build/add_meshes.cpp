@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 namespace cdem {
@@ -110,63 +109,6 @@ int nodes_end(const std::vector<geom::Tet>& tets, Range range, int begin) {
     for (const int node : tets[t])
       end = std::max(end, node + 1);
   return end;
-}
-
-// Of joined blocks (join_blocks.hpp): regions whose tets share a node that no other region has, their stars. Each
-// gives mass to its own light corners, whatever nodes are freed.
-void raise_light_corners_of_regions(Model& model, const geom::TetMesh& mesh, const Block& block) {
-  std::map<int, std::vector<int>> tets_of; // of the model, by region
-  std::map<int, std::pair<int, int>> uses; // by node: region, tets; -1: of several regions
-  for (int t = block.tet_begin; t < static_cast<int>(model.tets.size()); ++t) {
-    const int region = mesh.region[t - block.tet_begin];
-    tets_of[region].push_back(t);
-    for (const int node : model.tets[t]) {
-      auto& [of, tets] = uses.emplace(node, std::pair(region, 0)).first->second;
-      of = of == region ? region : -1;
-      ++tets;
-    }
-  }
-  std::vector<double> change(model.node_mass.size(), 0); // kg
-  for (const auto& [region, tets] : tets_of) {
-    int centre = -1;
-    for (const int node : model.tets[tets[0]])
-      if (uses.at(node) == std::pair(region, static_cast<int>(tets.size())))
-        centre = node;
-    if (centre < 0 || tets.size() < 4)
-      continue;
-    std::map<int, int> place; // by node
-    StarMasses star;
-    std::vector<int> nodes;
-    const auto local = [&](int node) {
-      const auto [at, fresh] = place.emplace(node, static_cast<int>(nodes.size()));
-      if (fresh) {
-        nodes.push_back(node);
-        star.nodes.push_back(model.node_position[node]);
-      }
-      return at->second;
-    };
-    for (const int t : tets)
-      for (const int node : model.tets[t])
-        if (node != centre)
-          local(node);
-    local(centre);
-    star.mass.assign(nodes.size(), 0);
-    for (const int t : tets) {
-      geom::Tet tet = model.tets[t];
-      for (int& node : tet) {
-        node = local(node);
-        star.mass[node] +=
-            model.bodies[block.body].material.density * tet_volume(mesh, t - block.tet_begin) / 4;
-      }
-      star.tets.push_back(tet);
-    }
-    const std::vector<double> before = star.mass;
-    raise_light_corners(model.bodies[block.body].material, star);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      change[nodes[i]] += star.mass[i] - before[i];
-  }
-  for (std::size_t i = 0; i < change.size(); ++i)
-    model.node_mass[i] += change[i];
 }
 
 void add_nodes(Model& model, const geom::TetMesh& mesh, const SplitMesh& split, int block) {

@@ -23,4 +23,8 @@ void raise_light_corners(const Elastic&, StarMasses&);
 
 void raise_light_corners(Model&, int block);
 
+// Of joined blocks (join_blocks.hpp): regions whose tets share a node that no other region has, their stars. Each
+// gives mass to its own light corners, whatever nodes are freed. mesh: that of the block, which was added last.
+void raise_light_corners_of_regions(Model&, const geom::TetMesh& mesh, const Block&);
+
 } // namespace cdem
