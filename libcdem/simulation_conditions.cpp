@@ -108,9 +108,9 @@ bool flows_meet(const Model& model, const ResolvedConditions& r) {
 }
 
 // m, the lowest node of outer faces; none on none.
-std::optional<geom::Vec3> lowest_place(const Model& model, const Selection& outer_faces) {
+std::optional<geom::Vec3> lowest_place(const Model& model, const Flow& flow) {
   std::optional<geom::Vec3> lowest;
-  for (const int face : selected_outer_faces(model, outer_faces))
+  for (const int face : flow_faces(model, flow))
     each_face_node(model, model.outer_faces[face], [&](int node, double) {
       if (const geom::Vec3& x = model.node_position[node]; !lowest || x.z() < lowest->z())
         lowest = x;
@@ -207,12 +207,12 @@ bool Simulation::flow(const Flow& flow) {
   require_places(impl_->model, own);
   const ResolvedConditions resolved = resolve(impl_->model, impl_->whole(), changed);
   if (resolved.flows.back().faces.empty())
-    throw geom::InputError("on", flow.on.text, "a place that a flow reaches",
+    throw geom::InputError("on", flow.places(), "a place that a flow reaches",
                            "all its faces belong to cavities that a mesh closes");
   if (!flow.water && !flow.new_faces &&
       flow_pattern(impl_->model, impl_->whole(), resolved.flows.back()).empty())
     throw geom::InputError("direction", geom::shown(flow.direction),
-                           "a direction that meets an outer face of the place (" + flow.on.text + ")",
+                           "a direction that meets an outer face of the place (" + flow.places() + ")",
                            "a flow along x+ pushes on the side x-");
   impl_->conditions = std::move(changed);
   return flows_meet(impl_->model, resolved);
@@ -291,7 +291,7 @@ void Simulation::check_run(double begin, double end) {
     ask(quiet.amplitude);
   for (const Flow& flow : c.flows) {
     ask(flow.velocity);
-    if (const auto lowest = flow.water ? lowest_place(impl_->model, flow.on) : std::nullopt)
+    if (const auto lowest = flow.water ? lowest_place(impl_->model, flow) : std::nullopt)
       ask(std::function<void(double)>([&](double time) { flow.water->at(*lowest, time); }));
   }
   for (const CrackPressure& pressure : c.crack_pressures) {

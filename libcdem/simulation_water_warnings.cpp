@@ -1,4 +1,5 @@
 // Warnings of water: where flows reach no face, beds that waves do not know, open water that presses on nothing.
+#include "libcdem/load/flow.hpp"
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/water_table.hpp"
 #include "libcdem/simulation_warnings.hpp"
@@ -38,22 +39,18 @@ void Warnings::look_for_dry_flows(double begin, double end) {
   if (of_.replaying)
     return;
   for (const Flow& flow : conditions_.flows) {
-    const std::pair key(flow.water.get(), flow.on.text);
+    const std::pair key(flow.water.get(), flow.places());
     const auto known = std::find_if(seen_flows_.begin(), seen_flows_.end(),
                                     [&](const SeenFlow& seen) { return seen.flow == key; });
     const bool is_known = known != seen_flows_.end();
     if (!flow.water || is_gone(model_, flow) || (is_known && known->line.empty()))
       continue;
     std::vector<geom::Vec3> places;
-    const auto add_faces = [&](const Selection& on) {
-      for (const int face : selected_outer_faces(model_, on))
-        each_face_node(model_, model_.outer_faces[face], [&](int node, double) {
-          places.push_back(place_of(model_, of_.whole(), node));
-          places.push_back(model_.node_position[node]);
-        });
-    };
-    add_faces(flow.on);
-    std::for_each(flow.also.begin(), flow.also.end(), add_faces);
+    for (const int face : flow_faces(model_, flow))
+      each_face_node(model_, model_.outer_faces[face], [&](int node, double) {
+        places.push_back(place_of(model_, of_.whole(), node));
+        places.push_back(model_.node_position[node]);
+      });
     if (places.empty())
       continue;
     std::sort(places.begin(), places.end(),
@@ -76,7 +73,7 @@ void Warnings::look_for_dry_flows(double begin, double end) {
           fmt::format("flow on {}: its water reached no face from t = {:.3g} to {:.3g} s: {}, "
                       "and the lowest face is at "
                       "z = {:.3g} m; look at the level of the water",
-                      flow.on.text, first, end,
+                      flow.places(), first, end,
                       std::isfinite(highest) ? fmt::format("it rose to z = {:.4g} m", highest)
                                              : std::string("there was none at this place"),
                       places.front().z());
@@ -128,12 +125,8 @@ void Warnings::of_uneven_bed(const Flow& flow) {
   if (!bed)
     return;
   std::vector<char> is_loaded(model_.bodies.size(), 0);
-  const auto load = [&](const Selection& on) {
-    for (const int face : selected_outer_faces(model_, on))
-      is_loaded[model_.blocks[model_.outer_faces[face].block].body] = 1;
-  };
-  load(flow.on);
-  std::for_each(flow.also.begin(), flow.also.end(), load);
+  for (const int face : flow_faces(model_, flow))
+    is_loaded[model_.blocks[model_.outer_faces[face].block].body] = 1;
   double area = 0, uneven = 0, lowest = bed->level, highest = -std::numeric_limits<double>::infinity();
   for (const OuterFace& face : model_.outer_faces)
     if (is_loaded[model_.blocks[face.block].body] == 0 && face.normal.z() > least_slope)
@@ -152,7 +145,7 @@ void Warnings::of_uneven_bed(const Flow& flow) {
         "flow on {}: its waves keep their shape over a flat bed at z = {:.4g} m, but the ground under water "
         "lies between z = {:.4g} and {:.4g} m; cdem.water.slope computes waves that run up a slope, and the "
         "depth of a flat bed is level - z of the ground",
-        flow.on.text, bed->z, lowest, highest));
+        flow.places(), bed->z, lowest, highest));
 }
 
 } // namespace cdem

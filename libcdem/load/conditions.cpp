@@ -15,4 +15,11 @@ void add_fix(std::vector<Fix>& fixes, const Fix& fix) {
   fixes.push_back(fix);
 }
 
+std::string Flow::places() const {
+  std::string text;
+  for (const Selection& place : on)
+    text += (text.empty() ? "" : ", ") + place.text;
+  return text;
+}
+
 } // namespace cdem

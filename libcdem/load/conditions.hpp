@@ -79,17 +79,18 @@ struct FreeField {
 // the place of V d: traction rho/2 (u . n)+ u, which is the paper's at v = 0. Shielding by other bodies, or by other parts
 // of the same one, is not modelled.
 struct Flow {
-  Selection on;                                // outer faces
-  geom::Vec3 direction = geom::Vec3::Zero();   // d, made a unit vector
-  double water_density = 1025;                 // kg/m3; the paper gives none, this is sea water
-  std::function<double(double time)> velocity; // V, m/s, >= 0
-  bool new_faces = false;                      // faces opened by cracks take the pressure too
-  bool relative = true;                        // to the velocity of the surface, in real-time stepping
+  std::vector<Selection> on{Selection::everything()}; // outer faces of these places
+  geom::Vec3 direction = geom::Vec3::Zero();          // d, made a unit vector
+  double water_density = 1025;                        // kg/m3; the paper gives none, this is sea water
+  std::function<double(double time)> velocity;        // V, m/s, >= 0
+  bool new_faces = false; // faces opened by cracks take the pressure too
+  bool relative = true;   // to the velocity of the surface, in real-time stepping
   // A field of water in place of direction, density and velocity (load/water_forces.hpp); always relative.
   std::shared_ptr<const WaterField> water;
-  std::vector<Selection> also; // further places
   double drag = 1; // C_D of a convex body: scales the traction, which integrates to 1 over its silhouette
   double added_mass = 0; // C_A = C_M - 1, of the volume under water
+
+  std::string places() const; // for messages
 };
 
 // Pressure of a gas or a fluid on the faces of cracks (load/crack_pressure.hpp): given over time, or by a pumped volume.

@@ -113,13 +113,10 @@ std::vector<FlowCorner> flow_corners(const Model& model, const State& state, con
 
 std::vector<int> flow_faces(const Model& model, const Flow& flow) {
   std::vector<int> faces;
-  const auto take = [&](const Selection& on) {
+  for (const Selection& on : flow.on) {
     const std::vector<int> here = selected_outer_faces(model, on);
     faces.insert(faces.end(), here.begin(), here.end());
-  };
-  take(flow.on);
-  for (const Selection& on : flow.also)
-    take(on);
+  }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   const std::vector<char> closed_off = of_inner_shells(model);

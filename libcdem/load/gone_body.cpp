@@ -21,8 +21,7 @@ bool is_gone(const Model& model, const Selection& on) {
 }
 
 bool is_gone(const Model& model, const Flow& flow) {
-  return is_gone(model, flow.on) && std::all_of(flow.also.begin(), flow.also.end(),
-                                                [&](const Selection& on) { return is_gone(model, on); });
+  return std::all_of(flow.on.begin(), flow.on.end(), [&](const Selection& on) { return is_gone(model, on); });
 }
 
 void require_places(const Model& model, const Conditions& conditions) {
@@ -47,9 +46,8 @@ void require_places(const Model& model, const Conditions& conditions) {
   require_nodes(conditions.fixes);
   require_nodes(conditions.forces);
   require_faces(conditions.tractions);
-  require_faces(conditions.flows);
   for (const Flow& flow : conditions.flows)
-    for (const Selection& on : flow.also)
+    for (const Selection& on : flow.on)
       require(on, "outer faces", selected_outer_faces);
   require_faces(conditions.quiets);
   require_faces(conditions.free_fields);

@@ -198,16 +198,14 @@ std::vector<Met> met_blocks(const Model& model, const Flow& flow, const std::vec
   std::vector<Met> met(model.blocks.size(), Met::nothing);
   for (const int face : faces)
     met[model.outer_faces[face].block] = Met::places;
-  const auto name = [&](const Selection& on) {
+  for (const Selection& on : flow.on) {
     using Kind = Selection::Kind;
     if (on.kind != Kind::all && on.kind != Kind::body && on.kind != Kind::units)
-      return;
+      continue;
     for (int b = 0; b < static_cast<int>(met.size()); ++b)
       if (selects_block(model, on, b))
         met[b] = Met::whole;
-  };
-  name(flow.on);
-  std::for_each(flow.also.begin(), flow.also.end(), name);
+  }
   return met;
 }
 

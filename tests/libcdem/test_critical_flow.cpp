@@ -162,7 +162,7 @@ TEST_CASE("critical flow: bad input is refused", "[flow][input]") {
   CHECK(refused([](auto& o) { o.held = cdem::Selection::side("z-"); }).empty());
   CHECK_THAT(refused([](auto& o) { o.flow.direction.setZero(); }),
              Contains("direction") && Contains("longer than"));
-  CHECK_THAT(refused([](auto& o) { o.flow.on = cdem::Selection::side("x+"); }),
+  CHECK_THAT(refused([](auto& o) { o.flow.on = {cdem::Selection::side("x+")}; }),
              Contains("looks towards the flow"));
   CHECK_THAT(refused([](auto& o) { o.flow.water_density = 0; }), Contains("water_density = 0"));
   CHECK_THAT(refused([](auto& o) { o.pressure_rate = 0; }), Contains("pressure_rate = 0"));

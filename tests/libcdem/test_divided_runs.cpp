@@ -55,7 +55,7 @@ cdem::Simulation in_flow(Kind kind, int threads = 1, std::shared_ptr<cdem::Obser
   s.fix(fixed(body_of("floor")));
   s.gravity(gravity());
   cdem::Flow flow;
-  flow.on = body_of("body");
+  flow.on = {body_of("body")};
   flow.direction = {1, 0.2, 0};
   flow.velocity = [](double) { return 8; };
   flow.relative = kind != Kind::springs;

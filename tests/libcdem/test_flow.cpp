@@ -17,7 +17,7 @@ constexpr double speed = 10, density = 1025;
 
 cdem::Flow flow_along(const Vec3& direction, const cdem::Selection& on = {}) {
   cdem::Flow flow;
-  flow.on = on;
+  flow.on = {on};
   flow.direction = direction;
   flow.velocity = [](double) { return speed; };
   return flow;

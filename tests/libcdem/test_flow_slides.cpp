@@ -71,7 +71,7 @@ struct Cube {
     gravity.water_density = water;
     model.gravity(gravity);
     cdem::Flow flow;
-    flow.on = cdem::Selection::of_body("cube");
+    flow.on = {cdem::Selection::of_body("cube")};
     flow.direction = {1, 0, 0};
     flow.water_density = water;
     flow.relative = false; // the statics are those of a cube at rest

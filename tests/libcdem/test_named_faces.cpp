@@ -69,7 +69,7 @@ TEST_CASE("named faces: a traction pulls with area times stress, on every unit o
 TEST_CASE("named faces: a flow pushes on them alone, with its pressure times the cosine", "[faces]") {
   System s(build({two_units(true)}));
   cdem::Flow flow;
-  flow.on = cdem::Selection::of_faces("root", "units");
+  flow.on = {cdem::Selection::of_faces("root", "units")};
   flow.direction = {3, 0, 4}; // 0.8 of it against the root
   flow.velocity = [](double) { return 10; };
   s.conditions.flows = {flow};

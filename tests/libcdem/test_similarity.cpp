@@ -135,7 +135,7 @@ Story cubes_in_a_flow(double k) {
   REQUIRE(story.model.settle(settle).converged);
   const std::size_t watch = story.model.watch("units", 0.25 * of.length);
   cdem::Flow flow;
-  flow.on = cdem::Selection::of_body("units");
+  flow.on = {cdem::Selection::of_body("units")};
   flow.direction = {1, 0, 0.1};
   flow.water_density = 1025;
   const double since = story.model.time();

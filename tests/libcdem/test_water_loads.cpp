@@ -347,7 +347,7 @@ TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][
   cdem::ModelSpec spec;
   spec.bodies = {meshed("unit", hollow)};
   cdem::Simulation given(spec, 1, nullptr);
-  flow.on = cdem::Selection::in_box({{0.4, 0.4, 0.4}, {1.1, 1.1, 1.1}});
+  flow.on = {cdem::Selection::in_box({{0.4, 0.4, 0.4}, {1.1, 1.1, 1.1}})};
   CHECK_THROWS_WITH(given.flow(flow), Catch::Contains("cavities that a mesh closes"));
 }
 
@@ -392,11 +392,11 @@ TEST_CASE("water reaches the faces between blocks that no bond holds together", 
   for (int b = 0; b < 3; ++b)
     CHECK((force_on(b) - weight * 0.12 * Vec3::UnitZ()).norm() < 1e-9 * one_side);
   // Water in front of a row pushes it, whatever joints lie behind.
-  s.conditions.flows[0].on = cdem::Selection::side("x-");
+  s.conditions.flows[0].on = {cdem::Selection::side("x-")};
   CHECK((force_on(0) + force_on(1) + force_on(2)).x() == Approx(one_side));
   // A stream takes faces that have parted, when asked.
   cdem::Flow flow;
-  flow.on = cdem::Selection::of_body("one");
+  flow.on = {cdem::Selection::of_body("one")};
   flow.direction = Vec3(-1, 0, 0);
   flow.velocity = [](double) { return 2.0; };
   flow.relative = false;

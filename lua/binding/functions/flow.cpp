@@ -56,7 +56,7 @@ const Record<Flow> steady{
 
 Flow flow_of(const ModelObject& model, const Arguments& a) {
   Flow flow = stream.read(a);
-  flow.on = one_selection(model, a.value("on"), "on");
+  flow.on = {one_selection(model, a.value("on"), "on")};
   return flow;
 }
 
@@ -68,9 +68,7 @@ Flow flow_of_water(const ModelObject& model, const Arguments& a) {
     throw InputError("relative", "false", "left out beside water",
                      "drag depends on the motion of the surface");
   Flow flow = steady.read(a);
-  const std::vector<Selection> places = selections(model, a.value("on"), "on");
-  flow.on = places.front();
-  flow.also.assign(places.begin() + 1, places.end());
+  flow.on = selections(model, a.value("on"), "on");
   flow.water = a.object<WaterObject>("water")->field;
   flow.new_faces = true; // a piece floats by all its faces
   return flow;
@@ -95,7 +93,7 @@ Value flow(Session& session, ModelObject& model, const Arguments& a) {
   if (model.simulation.flow(flow))
     session.warn("model:flow: it meets faces that another flow already meets; their pressures add up");
   model.notes->conditions.push_back((water ? water->words : "flow along " + describe(a.value("direction"))) +
-                                    " on " + flow.on.text);
+                                    " on " + flow.places());
   return {};
 }
 
