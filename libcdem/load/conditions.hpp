@@ -83,7 +83,7 @@ struct Flow {
   geom::Vec3 direction = geom::Vec3::Zero();          // d, made a unit vector
   double water_density = 1025;                        // kg/m3; the paper gives none, this is sea water
   std::function<double(double time)> velocity;        // V, m/s, >= 0
-  bool new_faces = false; // faces opened by cracks take the pressure too
+  bool new_faces = false; // faces opened inside bodies take it too (load/opened_faces.hpp)
   bool relative = true;   // to the velocity of the surface, in real-time stepping
   // A field of water in place of direction, density and velocity (load/water_forces.hpp); always relative.
   std::shared_ptr<const WaterField> water;

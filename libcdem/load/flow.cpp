@@ -60,17 +60,14 @@ void each_flow_face(const Model& model, const State& state, const ResolvedFlow& 
   }
   if (!flow.new_faces)
     return;
-  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (flow.meets[chunk.block] == Met::nothing || !is_open(state.faces[batch], lane))
-      return;
-    const FaceNodes pair = face_nodes(model.mesh, chunk, batch, lane);
-    for (const geom::Triangle& nodes : {pair.a, pair.outward_b()}) {
-      const std::array<geom::Vec3, 3> x = corners(nodes);
-      const geom::Vec3 outward = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
-      for (const int node : nodes)
-        add.corner(node, 1, outward / 3);
-    }
-  });
+  for (const CrackSide& side : crack_sides(model, state, flow.meets)) {
+    if (!side.parted)
+      continue;
+    const std::array<geom::Vec3, 3> x = corners(side.nodes);
+    const geom::Vec3 outward = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
+    for (const int node : side.nodes)
+      add.corner(node, 1, outward / 3);
+  }
   for (const BaredFace& bared : opened_faces(model, state, flow.meets))
     if (bared.parted)
       block_face(bared.face);
@@ -90,13 +87,6 @@ geom::Vec3 present_normal(const Model& model, const State& state, const OuterFac
   for (std::size_t i = 1; i + 1 < loop.size(); ++i)
     twice_area += (vertex(i) - x0).cross(vertex(i + 1) - x0);
   return twice_area.normalized();
-}
-
-bool is_open(const FaceStateBatch& state, int lane) {
-  for (const auto& point : state.mode)
-    if (is_intact(point[lane]))
-      return false;
-  return true;
 }
 
 Pattern flow_pattern(const Model& model, const State& state, const ResolvedFlow& flow) {

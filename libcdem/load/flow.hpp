@@ -14,9 +14,6 @@ std::vector<FlowCorner> flow_corners(const Model&, const State&, const ResolvedF
 // Outer faces that a flow may meet, ascending: not those of cavities that a mesh closes.
 std::vector<int> flow_faces(const Model&, const Flow&);
 
-// The three springs of a bonded face inside a mesh are broken.
-bool is_open(const FaceStateBatch&, int lane);
-
 // Outward, unit, of a face of a convex block where it stands now; a block of small strain hardly turns.
 geom::Vec3 present_normal(const Model&, const State&, const OuterFace&);
 

@@ -11,11 +11,13 @@ void keep_water(const AskedWater& old, int first_node, AskedWater& block) {
   if (old.block != block.block || old.nodes.size() != block.nodes.size() || first_node != block.first_node)
     return;
   block.nodes = old.nodes;
-  block.opened = old.opened;
+  block.cracks = old.cracks;
   block.bared = old.bared;
-  for (geom::Triangle& triangle : block.opened)
-    for (int& node : triangle)
+  for (CrackSide& side : block.cracks) {
+    side.block = block.block;
+    for (int& node : side.nodes)
       node += first_node - old.first_node;
+  }
   for (auto& [face, parted] : block.bared) {
     face.block = block.block;
     for (auto& [node, area] : face.node_area)

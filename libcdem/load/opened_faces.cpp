@@ -1,9 +1,12 @@
 #include "libcdem/load/opened_faces.hpp"
 
+#include "libcdem/bond/face_frame.hpp"
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/model/face_fan.hpp"
 
+#include <cmath>
 #include <map>
 
 namespace cdem {
@@ -25,8 +28,9 @@ NodeAreas whole_face(const Model& model, const Place& place) {
   return areas;
 }
 
+constexpr double parted_by = 0.01; // of the block's size
+
 bool has_parted(const Model& model, const State& state, const Interface& interface) {
-  constexpr double wide = 0.01;
   if (released(state, interface) || interface.point_end == interface.point_begin)
     return true;
   double area = 0, open = 0;
@@ -35,8 +39,14 @@ bool has_parted(const Model& model, const State& state, const Interface& interfa
     area += point.area;
     open += point.area * local_jump(model, state.displacement, p).dot(point.normal);
   }
-  return open >
-         wide * area * std::min(model.blocks[interface.block_a].size, model.blocks[interface.block_b].size);
+  return open > parted_by * area *
+                    std::min(model.blocks[interface.block_a].size, model.blocks[interface.block_b].size);
+}
+
+// size: m, of the face; block_size: m.
+bool has_parted(const FaceFrame& f, double size, double block_size) {
+  const geom::Vec3 mean = f.in_axes((f.gap[0] + f.gap[1] + f.gap[2]) / 3);
+  return f.torn || mean[2] > parted_by * block_size || mean.head<2>().norm() > size;
 }
 
 // What is known of a face that some open interface lies on.
@@ -113,6 +123,23 @@ std::vector<BaredFace> opened_faces(const Model& model, const State& state, cons
     faces.push_back({std::move(face), opening.parted});
   }
   return faces;
+}
+
+std::vector<CrackSide> crack_sides(const Model& model, const State& state, const std::vector<Met>& met) {
+  std::vector<CrackSide> sides;
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    if (met[chunk.block] == Met::nothing || is_bonded(state, batch, lane))
+      return;
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
+    const FaceFrame frame = face_frame(
+        nodes, [&](int node) { return place_of(model, state, node); },
+        [&](int node) { return vec(state.displacement[node]); });
+    const bool parted =
+        has_parted(frame, std::sqrt(3 * model.mesh.faces[batch].area[lane]), model.blocks[chunk.block].size);
+    sides.push_back({chunk.block, nodes.a, parted});
+    sides.push_back({chunk.block, nodes.outward_b(), parted});
+  });
+  return sides;
 }
 
 } // namespace cdem

@@ -34,9 +34,9 @@ struct NodeInWater {
 // What is kept of a block from one time when the field is asked to the next.
 struct AskedWater {
   int block = 0, first_node = 0;
-  std::vector<NodeInWater> nodes;     // of the block
-  std::vector<geom::Triangle> opened; // by cracks, outward
-  std::vector<BaredFace> bared;       // on other blocks before
+  std::vector<NodeInWater> nodes; // of the block
+  std::vector<CrackSide> cracks;
+  std::vector<BaredFace> bared; // on other blocks before
 };
 
 struct BlockInWater {
@@ -46,7 +46,7 @@ struct BlockInWater {
   std::size_t first_corner = 0, first_force = 0; // among those of the flow (place_water)
 
   std::size_t corners() const { // with those of faces that have opened
-    std::size_t sum = face_corners + 3 * asked.opened.size();
+    std::size_t sum = face_corners + 3 * asked.cracks.size();
     for (const BaredFace& bared : asked.bared)
       sum += bared.face.node_area.size();
     return sum;

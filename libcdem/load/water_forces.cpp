@@ -128,24 +128,18 @@ std::vector<double> wet_shares(const Model& model, const Block& block, const std
   return share;
 }
 
-// Faces of a block that were not outside when the model was made: inside its mesh that cracks have opened, from both sides,
-// outward, and on other blocks.
+// Faces of a block that were not outside when the model was made.
 void find_opened(const Model& model, const State& state, ResolvedFlow& flow) {
   std::vector<AskedWater*> of_block(model.blocks.size(), nullptr);
   for (BlockInWater& in_water : flow.in_water) {
-    in_water.asked.opened.clear();
+    in_water.asked.cracks.clear();
     in_water.asked.bared.clear();
     of_block[in_water.asked.block] = &in_water.asked;
   }
   if (!flow.new_faces)
     return;
-  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (!of_block[chunk.block] || chunk.stars || !is_open(state.faces[batch], lane))
-      return;
-    const FaceNodes pair = face_nodes(model.mesh, chunk, batch, lane);
-    of_block[chunk.block]->opened.push_back(pair.a);
-    of_block[chunk.block]->opened.push_back(pair.outward_b());
-  });
+  for (const CrackSide& side : crack_sides(model, state, flow.meets))
+    of_block[side.block]->cracks.push_back(side);
   for (BaredFace& bared : opened_faces(model, state, flow.meets))
     of_block[bared.face.block]->bared.push_back(std::move(bared));
 }
@@ -167,7 +161,8 @@ public:
     }
   }
 
-  void triangle(const geom::Triangle& nodes, const CornerNormals* smooth) {
+  // drag: a stream reaches it. smooth: null for the triangle's own normal.
+  void triangle(const geom::Triangle& nodes, const CornerNormals* smooth, bool drag = true) {
     const std::array<const WaterHere*, 3> corner{&at(nodes[0]), &at(nodes[1]), &at(nodes[2])};
     if (!corner[0]->wet() && !corner[1]->wet() && !corner[2]->wet())
       return add_dry(nodes);
@@ -181,11 +176,10 @@ public:
     const CornerNormals normals = smooth && corner_ ? turned_with(*smooth, x) : CornerNormals{n, n, n};
     for (int i = 0; i < 3; ++i) {
       force_[nodes[i] - first_].second -= wet.pressure[i] * n;
-      add(nodes[i], -wet.area[i] * normals[i]);
+      add(nodes[i], drag ? geom::Vec3(-wet.area[i] * normals[i]) : geom::Vec3(geom::Vec3::Zero()));
     }
   }
 
-  // drag: a stream reaches it.
   void block_face(const OuterFace& face, bool drag = true) {
     const geom::Vec3 normal = present_normal(model_, state_, face);
     for (const auto& [node, area] : face.node_area) {
@@ -288,8 +282,8 @@ void place_water(const Model& model, const State& state, Range nodes, int thread
         else
           on_block.block_face(face);
       }
-      for (const geom::Triangle& opened : asked.opened)
-        on_block.triangle(opened, nullptr);
+      for (const CrackSide& side : asked.cracks)
+        on_block.triangle(side.nodes, nullptr, side.parted);
       for (const BaredFace& bared : asked.bared)
         on_block.block_face(bared.face, bared.parted);
     });

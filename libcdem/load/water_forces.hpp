@@ -3,7 +3,8 @@
 //   on the part of each face below the free surface
 //     -p n                           pressure: buoyancy, and Froude-Krylov where the field's pressure is that of the motion
 //     rho/2 C_D (u . -n)+ u          drag, u the velocity of the water less that of the surface (Feng 2014 eqs 19-20 for
-//                                    C_D = 1, which a convex body has on its silhouette)
+//                                    C_D = 1, which a convex body has on its silhouette). Inside bodies it acts where
+//                                    faces have parted (opened_faces.hpp)
 //   on the volume below it
 //     rho C_A Du/Dt                  added mass C_A = C_M - 1; what it takes from the body's own acceleration is inertia of
 //                                    the nodes (ResolvedConditions::water_mass)

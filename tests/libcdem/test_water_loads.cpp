@@ -2,14 +2,13 @@
 #include "libcdem/load/water_forces.hpp"
 #include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/energy.hpp"
-#include "libcdem/water/plain_water.hpp"
 #include "libcdem/water/steady_wave.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
 #include "libgeom/polyhedron/cut.hpp"
 #include "tests/libcdem/going_on.hpp"
-#include "tests/libcdem/system.hpp"
+#include "tests/libcdem/in_water.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -18,39 +17,6 @@ using namespace testing;
 using geom::Vec3;
 
 namespace {
-
-constexpr double density = 1025, weight = 1025 * 9.81;
-
-cdem::UniformWater still(double level) {
-  cdem::UniformWater water;
-  water.velocity = [](double) { return Vec3(0, 0, 0); };
-  water.level = level;
-  return water;
-}
-
-cdem::Flow in_water(std::shared_ptr<const cdem::WaterField> water, double drag = 1, double added_mass = 0) {
-  cdem::Flow flow;
-  flow.water = std::move(water);
-  flow.drag = drag;
-  flow.added_mass = added_mass;
-  flow.new_faces = true;
-  return flow;
-}
-
-struct Wrench {
-  Vec3 force = Vec3::Zero(), moment = Vec3::Zero(); // N; N m about the origin
-};
-
-Wrench wrench(System& s) {
-  cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
-  cdem::update_external(r, s.state.time, &s.state.velocity);
-  Wrench sum;
-  for (std::size_t i = 0; i < r.external.size(); ++i) {
-    sum.force += vec(r.external[i]);
-    sum.moment += cdem::place_of(s.model, s.state, static_cast<int>(i)).cross(vec(r.external[i]));
-  }
-  return sum;
-}
 
 // A box of divisions n, its surface moved to a sphere of radius 0.5, or its sides to a cylinder of diameter and height 1,
 // whose points wander along the axis, so that no triangle of the side is parallel to it.
@@ -71,13 +37,6 @@ geom::TetMesh shaped(Shape shape, int n) {
     }
   }
   return mesh;
-}
-
-std::shared_ptr<const cdem::WaterField> stream(const Vec3& velocity,
-                                               const Vec3& acceleration = Vec3::Zero()) {
-  cdem::UniformWater water;
-  water.velocity = [=](double t) { return Vec3(velocity + (t - 1) * acceleration); };
-  return cdem::uniform_water(water);
 }
 
 } // namespace
@@ -102,17 +61,17 @@ TEST_CASE("still water carries a body as Archimedes said, at any attitude and dr
       Wrench expected;
       if (parts.below || !parts.above) {
         const geom::MassProperties wet = geom::mass_properties(parts.below ? parts.below->shape : box);
-        expected.force = wet.volume * weight * Vec3::UnitZ();
+        expected.force = wet.volume * sea_weight * Vec3::UnitZ();
         expected.moment = wet.centroid.cross(expected.force);
       }
-      CHECK((sum.force - expected.force).norm() < 1e-12 * weight);
-      CHECK((sum.moment - expected.moment).norm() < 1e-12 * weight);
+      CHECK((sum.force - expected.force).norm() < 1e-12 * sea_weight);
+      CHECK((sum.moment - expected.moment).norm() < 1e-12 * sea_weight);
     }
 }
 
 TEST_CASE("drag on a convex body is that of its silhouette, the side along a stream takes nothing",
           "[water][flow]") {
-  const double speed = 3, pressure = 0.5 * density * speed * speed;
+  const double speed = 3, pressure = 0.5 * sea_density * speed * speed;
   const auto drag = [&](Shape shape, const Vec3& along, bool field) {
     System s(build({meshed("unit", shaped(shape, 8))}));
     if (field) {
@@ -152,7 +111,8 @@ TEST_CASE("a body at rest in accelerated water takes Morison's force", "[water]"
   double volume = 0;
   for (int i = 0; i < static_cast<int>(s.model.node_position.size()); ++i)
     volume += cdem::node_volume(s.model, i);
-  const Vec3 inertia = density * volume * (1 + ca) * a, drag = 0.5 * density * cd * area * u.norm() * u;
+  const Vec3 inertia = sea_density * volume * (1 + ca) * a,
+             drag = 0.5 * sea_density * cd * area * u.norm() * u;
   const Wrench sum = wrench(s);
   CHECK((sum.force - inertia - drag).norm() < 0.03 * drag.norm());
   s.conditions.flows[0].drag = 0;
@@ -176,7 +136,7 @@ TEST_CASE("a field with pressure and one with acceleration give the same force, 
   for (const double time : {0.0, 1.7, 4.0}) {
     s.state.time = time;
     s.conditions.flows = {in_water(wave, 0, ca)};
-    const Vec3 by_pressure = wrench(s).force - weight * Vec3::UnitZ();
+    const Vec3 by_pressure = wrench(s).force - sea_weight * Vec3::UnitZ();
     s.conditions.flows = {in_water(cdem::function_water(without), 0, ca)};
     const Vec3 by_acceleration = wrench(s).force;
     CHECK(by_acceleration.norm() > 300);
@@ -196,7 +156,7 @@ TEST_CASE("a body sinks with its weight less buoyancy over its mass and the adde
   options.duration = 0.01;
   options.time_step = 5e-5;
   s.run(options);
-  const double expected = -9.81 * (rock_density - density) / (rock_density + ca * density);
+  const double expected = -9.81 * (rock_density - sea_density) / (rock_density + ca * sea_density);
   double mean = 0; // m, of the mass
   for (int i = 0; i < static_cast<int>(s.state.displacement.size()); ++i)
     mean += s.state.displacement[i].z * cdem::node_volume(s.model, i);
@@ -208,7 +168,7 @@ TEST_CASE("a body sinks with its weight less buoyancy over its mass and the adde
 TEST_CASE("still water gives no turn and no energy to a body that turns in it", "[water][rigid]") {
   const bool rigid = GENERATE(false, true);
   cdem::Elastic neutral = rock();
-  neutral.density = density;
+  neutral.density = sea_density;
   System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}), {}, neutral)}));
   const Vec3 spin(0.3, 0, 0.4), centre(0.5, 0.5, 0.5); // rad/s, m
   for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
@@ -229,7 +189,7 @@ TEST_CASE("still water gives no turn and no energy to a body that turns in it", 
   CHECK((angular() - before).norm() < (rigid ? 1e-9 : 1e-4) * before.norm());
   if (rigid)
     CHECK(cdem::energy(s.model, s.state).kinetic ==
-          Approx(0.5 * density / 6 * spin.squaredNorm()).epsilon(1e-9)); // of a cube of 1 m
+          Approx(0.5 * sea_density / 6 * spin.squaredNorm()).epsilon(1e-9)); // of a cube of 1 m
 }
 
 TEST_CASE("a body that floats heaves with the period of its water line, and no higher than it began",
@@ -237,7 +197,7 @@ TEST_CASE("a body that floats heaves with the period of its water line, and no h
   const double draught = 0.2, height = 0.4, offset = 0.03;
   const double ca = GENERATE(0.0, 0.5);
   cdem::Elastic light = rock();
-  light.density = 0.5 * density;
+  light.density = 0.5 * sea_density;
   System s(build({meshed("raft", geom::box_mesh({1.2, 0.8, height}, {3, 2, 2}), {}, light)}));
   cdem::set_rigid(s.model, s.state, {0});
   s.conditions.gravity = gravity();
@@ -280,8 +240,8 @@ TEST_CASE("the added mass of a body that floats is that of its wet volume, for a
       double mass = 0;
       for (const double m : r.water_mass)
         mass += m;
-      CHECK(mass == Approx(0.7 * density * wet).epsilon(1e-12));
-      CHECK(wrench(s).force.x() == Approx(1.7 * density * wet * 0.3).epsilon(1e-6));
+      CHECK(mass == Approx(0.7 * sea_density * wet).epsilon(1e-12));
+      CHECK(wrench(s).force.x() == Approx(1.7 * sea_density * wet * 0.3).epsilon(1e-6));
     }
 }
 
@@ -303,9 +263,9 @@ TEST_CASE("a surface without a pressure leaves out no force of accelerated water
   for (const double time : {0.0, 1.2, 2.9}) {
     s.state.time = time;
     s.conditions.flows = {in_water(wave, 0)};
-    const Vec3 by_pressure = wrench(s).force - weight * Vec3::UnitZ();
+    const Vec3 by_pressure = wrench(s).force - sea_weight * Vec3::UnitZ();
     s.conditions.flows = {in_water(cdem::function_water(surface), 0)};
-    const Vec3 by_surface = wrench(s).force - weight * Vec3::UnitZ();
+    const Vec3 by_surface = wrench(s).force - sea_weight * Vec3::UnitZ();
     CHECK(by_pressure.norm() > 300);
     CHECK((by_surface - by_pressure).norm() < 0.02 * by_pressure.norm());
   }
@@ -314,7 +274,7 @@ TEST_CASE("a surface without a pressure leaves out no force of accelerated water
   level.velocity = [](const Vec3&, double t) { return Vec3(1.5 * t, 0, 0); };
   level.surface = [](const Vec3&, double) { return 2.0; };
   s.conditions.flows = {in_water(cdem::function_water(level), 0)};
-  CHECK(wrench(s).force.x() == Approx(density * 1.5).epsilon(1e-6));
+  CHECK(wrench(s).force.x() == Approx(sea_density * 1.5).epsilon(1e-6));
 }
 
 TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][flow]") {
@@ -334,85 +294,21 @@ TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][
     return wrench(s).force;
   };
   const double volume = 1.5 * 1.5 * 1.5;
-  CHECK((force(hollow, cdem::uniform_water(still(3))) - volume * weight * Vec3::UnitZ()).norm() <
-        1e-9 * weight);
+  CHECK((force(hollow, cdem::uniform_water(still(3))) - volume * sea_weight * Vec3::UnitZ()).norm() <
+        1e-9 * sea_weight);
   const Vec3 u(2, 0, 0);
-  CHECK((force(hollow, stream(u)) - force(full, stream(u))).norm() < 1e-9 * density);
+  CHECK((force(hollow, stream(u)) - force(full, stream(u))).norm() < 1e-9 * sea_density);
   cdem::Flow flow;
   flow.direction = Vec3::UnitX();
   flow.velocity = [](double) { return 2; };
   System s(build({meshed("unit", hollow)}));
   s.conditions.flows = {flow};
-  CHECK(wrench(s).force.x() == Approx(0.5 * density * 4 * 1.5 * 1.5));
+  CHECK(wrench(s).force.x() == Approx(0.5 * sea_density * 4 * 1.5 * 1.5));
   cdem::ModelSpec spec;
   spec.bodies = {meshed("unit", hollow)};
   cdem::Simulation given(spec, 1, nullptr);
   flow.on = {cdem::Selection::in_box({{0.4, 0.4, 0.4}, {1.1, 1.1, 1.1}})};
   CHECK_THROWS_WITH(given.flow(flow), Catch::Contains("cavities that a mesh closes"));
-}
-
-TEST_CASE("water reaches the faces between blocks that no bond holds together", "[water][flow]") {
-  // Three blocks in a row, the middle one inside: each alone is carried by its own buoyancy.
-  const bool rigid = GENERATE(false, true), two_bodies = GENERATE(false, true);
-  CAPTURE(rigid, two_bodies);
-  const Vec3 size(0.4, 0.5, 0.6);
-  const cdem::Element element = rigid ? cdem::Element::rigid : cdem::Element::finite_volume;
-  cdem::BodySpec one = body("one", geom::grid({1.2, 0.5, 0.6}, {3, 1, 1}));
-  one.element = element;
-  std::vector<cdem::BodySpec> bodies{one};
-  std::vector<cdem::PairSpec> pairs;
-  if (two_bodies) { // never bonded
-    bodies[0].shape = geom::grid({0.8, 0.5, 0.6}, {2, 1, 1});
-    cdem::BodySpec other = body("other", geom::grid(size, {1, 1, 1}, {0.8, 0, 0}));
-    other.element = element;
-    bodies.push_back(other);
-    cdem::Joint dry;
-    dry.bonded = false;
-    pairs.push_back({"one", "other", dry});
-  }
-  System s(build(bodies, pairs));
-  s.conditions.flows = {in_water(cdem::uniform_water(still(5)), 0)};
-  const auto force_on = [&](int block) {
-    cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
-    cdem::update_external(r, s.state.time, &s.state.velocity);
-    Vec3 sum = Vec3::Zero();
-    for (int node = s.model.blocks[block].node_begin; node < s.model.blocks[block].node_end; ++node)
-      sum += vec(r.external[node]);
-    return sum;
-  };
-  const double one_side = weight * 0.5 * 0.6 * (5 - 0.3); // N, on a face across the row
-  const auto end = static_cast<int>(std::max_element(s.model.blocks.begin(), s.model.blocks.end(),
-                                                     [](const cdem::Block& a, const cdem::Block& b) {
-                                                       return a.mass.centroid.x() < b.mass.centroid.x();
-                                                     }) -
-                                    s.model.blocks.begin());
-  CHECK(force_on(end).x() == Approx(two_bodies ? 0 : -one_side).margin(1e-9 * one_side));
-  for (std::uint8_t& mode : s.state.bond_mode)
-    mode = static_cast<std::uint8_t>(cdem::BondMode::broken_tension);
-  for (int b = 0; b < 3; ++b)
-    CHECK((force_on(b) - weight * 0.12 * Vec3::UnitZ()).norm() < 1e-9 * one_side);
-  // Water in front of a row pushes it, whatever joints lie behind.
-  s.conditions.flows[0].on = {cdem::Selection::side("x-")};
-  CHECK((force_on(0) + force_on(1) + force_on(2)).x() == Approx(one_side));
-  // A stream takes faces that have parted, when asked.
-  cdem::Flow flow;
-  flow.on = {cdem::Selection::of_body("one")};
-  flow.direction = Vec3(-1, 0, 0);
-  flow.velocity = [](double) { return 2.0; };
-  flow.relative = false;
-  const double push = cdem::flow_pressure(2, flow.water_density) * 0.3;
-  for (const bool apart : {false, true}) {
-    for (const cdem::Block& block : s.model.blocks)
-      for (int node = block.node_begin; apart && node < block.node_end; ++node)
-        s.state.displacement[node].x = 0.1 * block.mass.centroid.x();
-    for (const bool new_faces : {false, true}) {
-      flow.new_faces = new_faces;
-      s.conditions.flows = {flow};
-      const double sum = (force_on(0) + force_on(1) + force_on(2)).x();
-      const int faces = apart && new_faces ? (two_bodies ? 2 : 3) : (two_bodies ? 0 : 1);
-      CHECK(-sum == Approx(faces * push).margin(1e-9 * push));
-    }
-  }
 }
 
 TEST_CASE("a run in waves that is left and goes on ends in the same bits", "[water][resume]") {

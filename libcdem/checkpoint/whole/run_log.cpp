@@ -89,9 +89,10 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
       const auto require_own = [&](int node) {
         require(node >= block.node_begin && node < block.node_end, "restart.flows", node);
       };
-      for (const geom::Triangle& triangle : asked.opened)
-        for (const int node : triangle)
-          require_own(node);
+      for (const CrackSide& side : asked.cracks) {
+        require(side.block == asked.block, "restart.flows", side.block);
+        std::for_each(side.nodes.begin(), side.nodes.end(), require_own);
+      }
       for (const auto& [face, parted] : asked.bared) {
         require(face.block == asked.block, "restart.flows", face.block);
         require(face.face >= 0 && face.face < static_cast<int>(block.shape.faces.size()), "restart.flows",

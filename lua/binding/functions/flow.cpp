@@ -26,7 +26,8 @@ const Record<Flow> stream{
      {water_density(), &Flow::water_density},
      {flag("new_faces")
           .standard()
-          .doc("faces opened by cracks, and faces between blocks that no bond holds, take the pressure too"),
+          .doc("faces of cracks, and faces between blocks that no bond holds, take the pressure too where "
+               "their sides have parted by a hundredth of the block or unit"),
       &Flow::new_faces}}};
 
 // The members of a flow that are not searched for.
@@ -240,8 +241,9 @@ void bind_flow(Module& m) {
               fields.begin() + 5); // the velocity beside the direction
   fields[0].must = false;          // water has its own
   fields[2].doc("outer faces that may take it: one place; of water: a place or a list of places");
-  fields[4].doc("faces opened by cracks, and faces between blocks that no bond holds, take the pressure too; "
-                "always with water");
+  fields[4].doc("faces of cracks, and faces between blocks that no bond holds, take the pressure too where "
+                "their sides have parted by a hundredth of the block or unit; always with water, whose own "
+                "pressure gets in at once");
   model
       .add("flow",
            "Pressure of a flow on the outer faces that look towards it, as they stand at each moment: alpha "
