@@ -78,8 +78,8 @@ for _, name in ipairs(ground) do carried = carried + model:reaction(name)[3] end
 local measures = model:pile_measures{ body = "units", onto = "slope" }
 local few, is_held = 0, {}
 for _, number in ipairs(model:lowest_units{ body = "units", count = held }) do is_held[number] = true end
-for number, contacts in ipairs(measures.contacts) do
-  if contacts < 3 and not is_held[number] then few = few + 1 end
+for _, row in ipairs(measures.contacts) do
+  if row.contacts < 3 and not is_held[row.unit] then few = few + 1 end
 end
 local contacts = model:contacts()
 local table_of_the_maker = "maker's design table"

@@ -94,21 +94,14 @@ local function picture(name, title)
 end
 picture("rest.png", "At rest in still water")
 
--- A unit is whole as long as one piece has nine tenths of it.
-local function whole_units()
-  local whole = 0
-  for _, piece in ipairs(model:fragments()) do
-    if piece.body == "units" and piece.volume > 0.9 * unit:volume() then whole = whole + 1 end
-  end
-  return whole
-end
+local function broken_units() return model:pile{ body = "units" }.broken end
 local function distance(from, to)
   local d2 = 0
   for axis = 1, 3 do d2 = d2 + (to.centroid[axis] - from.centroid[axis]) ^ 2 end
   return math.sqrt(d2)
 end
 
-local before, numbers, whole_at_rest = places(), {}, breakable and whole_units() or count
+local before, numbers, broken_at_rest = places(), {}, broken_units()
 for i = 1, count do numbers[i] = i end
 local rows = { ns = {}, nod = {}, largest = {}, out = {}, stayed_out = {}, mean = {}, rocked = {}, broken = {} }
 local left, breaking, calls = {}, { time = {}, share = {} }, 0 -- left: units that were farther than Dn from their place
@@ -119,7 +112,7 @@ local function watch(start_of_group, farthest)
   end
   calls = calls + 1
   if breakable and calls % 20 == 0 then
-    local share, last = (whole_at_rest - whole_units()) / count, breaking.share[#breaking.share] or 0
+    local share, last = (broken_units() - broken_at_rest) / count, breaking.share[#breaking.share] or 0
     breaking.time[#breaking.time + 1], breaking.share[#breaking.share + 1] = model.time - start, share
     if share > last then cdem.log(string.format("%.2f s: %.0f %% of the units are broken", model.time - start, 100 * share)) end
   end
@@ -144,7 +137,7 @@ for k = 1, groups do
     if moved[i] > 1 then stayed_out = stayed_out + 1 end
   end
   local nod = gone / ((box.max[2] - box.min[2]) / Dn)
-  local broken = breakable and (whole_at_rest - whole_units()) / count or 0
+  local broken = (broken_units() - broken_at_rest) / count
   rows.ns[k], rows.nod[k], rows.largest[k], rows.mean[k], rows.out[k] = ns[k], nod, largest, mean, gone
   rows.rocked[k], rows.broken[k], rows.stayed_out[k] = rocked, broken, stayed_out
   local at = string.format("ns_%g", ns[k])

@@ -5,10 +5,13 @@
 
 namespace cdem {
 
+// Of a unit that has broken, centroid and motion are those that its largest piece gives it.
 struct Unit {
   int block = 0;                            // of the model
   geom::Vec3 centroid = geom::Vec3::Zero(); // m, now
   geom::Pose motion;                        // the rigid one nearest to how its mass has moved since the start
+  int pieces = 1;                           // that no bond holds together
+  double largest_piece = 1;                 // part of its volume
 };
 
 } // namespace cdem

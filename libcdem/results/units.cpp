@@ -1,11 +1,15 @@
 #include "libcdem/results/units.hpp"
 
+#include "libcdem/bond/fragments.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
+#include "libcdem/element/small_strain.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/model/unit_order.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <set>
 
 namespace cdem {
@@ -18,20 +22,58 @@ std::vector<int> units_named(const Model& model, const std::string& body) {
   return blocks;
 }
 
+struct LargestPiece {
+  std::vector<int> nodes; // ascending
+  int pieces = 1;
+  double share = 1; // of the unit's volume
+};
+
+// fragment: of each node; empty: all units are whole.
+LargestPiece largest_piece(const Model& model, const Block& block, const std::vector<int>& fragment) {
+  LargestPiece piece;
+  std::map<int, double> volumes; // m3, by fragment
+  double whole = 0;
+  for (int t = block.tet_begin; t < block.tet_end && !fragment.empty(); ++t) {
+    const double volume = tet_volume(model, t);
+    volumes[fragment[model.tets[t][0]]] += volume;
+    whole += volume;
+  }
+  if (volumes.size() < 2) {
+    piece.nodes.resize(static_cast<std::size_t>(block.node_end - block.node_begin));
+    std::iota(piece.nodes.begin(), piece.nodes.end(), block.node_begin);
+    return piece;
+  }
+  const auto largest = std::max_element(volumes.begin(), volumes.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  for (int node = block.node_begin; node < block.node_end; ++node)
+    if (fragment[node] == largest->first)
+      piece.nodes.push_back(node);
+  piece.pieces = static_cast<int>(volumes.size());
+  piece.share = largest->second / whole;
+  return piece;
+}
+
 } // namespace
 
 std::vector<Unit> units_of(const Model& model, const State& state, const std::string& body) {
   std::vector<Unit> units;
-  for (const int b : units_named(model, body)) {
+  const std::vector<int> blocks = units_named(model, body);
+  const bool can_break = !model.bodies[model.blocks[blocks[0]].body].bonding.none();
+  const std::vector<int> fragment = can_break ? fragments_of_nodes(model, state) : std::vector<int>{};
+  for (const int b : blocks) {
     const Block& block = model.blocks[b];
-    std::vector<geom::Vec3> places;
-    for (int node = block.node_begin; node < block.node_end; ++node)
-      places.push_back(place_of(model, state, node));
-    const auto part = [&](const auto& of_nodes) {
-      return std::vector(of_nodes.begin() + block.node_begin, of_nodes.begin() + block.node_end);
-    };
-    units.push_back({b, block.mass.centroid + centroid_displacement(model, state, b),
-                     geom::best_fit(part(model.node_position), places, part(model.node_mass))});
+    const LargestPiece piece = largest_piece(model, block, fragment);
+    std::vector<geom::Vec3> before, now;
+    std::vector<double> mass;
+    for (const int node : piece.nodes) {
+      before.push_back(model.node_position[node]);
+      now.push_back(place_of(model, state, node));
+      mass.push_back(model.node_mass[node]);
+    }
+    Unit unit{b, {}, geom::best_fit(before, now, mass), piece.pieces, piece.share};
+    unit.centroid = piece.pieces > 1 ? unit.motion(block.mass.centroid)
+                                     : block.mass.centroid + centroid_displacement(model, state, b);
+    units.push_back(unit);
   }
   return units;
 }
@@ -58,6 +100,17 @@ std::vector<geom::Surface> surfaces_of(const Model& model, const State& state, c
         node -= model.blocks[triangle.block].node_begin;
       surfaces[u].triangles.push_back(own);
     }
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    const int u = unit_of[chunk.block];
+    if (u < 0 || is_bonded(state, batch, lane))
+      return;
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
+    for (geom::Triangle side : {nodes.a, nodes.outward_b()}) {
+      for (int& node : side)
+        node -= model.blocks[chunk.block].node_begin;
+      surfaces[u].triangles.push_back(side);
+    }
+  });
   return surfaces;
 }
 

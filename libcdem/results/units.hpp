@@ -9,7 +9,8 @@ namespace cdem {
 
 // Each throws geom::InputError for a body that there is not.
 std::vector<Unit> units_of(const Model&, const State&, const std::string& body);
-std::vector<geom::Surface> surfaces_of(const Model&, const State&, const std::string& body); // where they are
+// Where they are; of a broken unit, each piece is closed.
+std::vector<geom::Surface> surfaces_of(const Model&, const State&, const std::string& body);
 // How many other blocks of meshed bodies press on each unit.
 std::vector<int> touching(const Model&, const State&, const std::string& body);
 

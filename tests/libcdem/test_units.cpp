@@ -73,6 +73,46 @@ TEST_CASE("a unit that was turned and moved as a rigid body is found where it is
   CHECK((geom::bounding_box(surfaces[1]).min - box.min).norm() < 1e-12);
 }
 
+TEST_CASE("a unit that has broken is where its largest piece is, and each piece is closed", "[units]") {
+  geom::TetMesh mesh = geom::box_mesh({1, 1, 1}, {4, 1, 1});
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    double x = 0;
+    for (const int node : mesh.tets[t])
+      x += mesh.nodes[node].x() / 4;
+    mesh.region[t] = x > 0.75;
+  }
+  cdem::Bonding bonding;
+  bonding.between_regions = true;
+  System s(build({meshed("units", mesh, bonding)}));
+  const cdem::Block& block = s.model.blocks[0];
+  const geom::Pose large{rotation({1, -2, 0.5}, 40 * degree), {4, 5, 6}},
+      small{rotation({0, 1, 0}, 2), {-3, 0, 0}};
+  for (std::size_t t = 0; t < s.model.tets.size(); ++t)
+    for (const int n : s.model.tets[t])
+      s.state.displacement[n] = node((s.model.mesh.region[t] == 0 ? large : small)(s.model.node_position[n]) -
+                                     s.model.node_position[n]);
+  CHECK(cdem::units_of(s.model, s.state, "units")[0].pieces == 1);
+  each_face_spring(s.model.mesh, [&](const cdem::MeshChunk&, const cdem::FaceSpringPlace& at) {
+    s.state.faces[at.batch].mode[at.point][at.lane] =
+        static_cast<std::uint8_t>(cdem::BondMode::broken_tension);
+  });
+  const cdem::Unit unit = cdem::units_of(s.model, s.state, "units")[0];
+  CHECK(unit.pieces == 2);
+  CHECK(unit.largest_piece == Approx(0.75));
+  CHECK((unit.motion.rotation - large.rotation).norm() < 1e-12);
+  CHECK((unit.motion.translation - large.translation).norm() < 1e-12);
+  CHECK((unit.centroid - large(block.mass.centroid)).norm() < 1e-12);
+
+  const geom::Surface surface = cdem::surfaces_of(s.model, s.state, "units")[0];
+  CHECK(geom::open_edges(surface).empty());
+  double volume = 0;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto [a, b, c] = surface.corners(i);
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  CHECK(volume == Approx(1));
+}
+
 TEST_CASE("units chosen by number are their nodes and outer faces alone", "[units]") {
   const System s = cubes_on_slab();
   const auto chosen = cdem::Selection::of_units("units", {3, 1, 3});

@@ -1,6 +1,7 @@
 // Piles in scripts: dropped, laid, saved, made a model of, measured.
 #include "tests/lua/script.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 using namespace cdem::script;
@@ -67,6 +68,56 @@ TEST_CASE("units keep their numbers and places when others are removed", "[lua]"
                "local after = model:highest_units{ body = 'units', count = 10 }\n"
                "i = 0\nfor _, number in ipairs(highest) do if number ~= 3 and number ~= 8 then\n"
                "  i = i + 1\n  assert(after[i] == number)\nend end") == "");
+}
+
+TEST_CASE("contacts of the units that are left go by their numbers", "[lua]") {
+  CHECK(error_of(head +
+                 "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
+                 "local model = cdem.model{ bodies = {\n"
+                 "  { shape = pile, material = concrete, name = 'units', element = 'rigid' },\n"
+                 "  { shape = slab, material = concrete, name = 'floor', element = 'rigid' } } }\n"
+                 "model:remove{ on = cdem.select.units{ body = 'units', numbers = {3, 8} } }\n"
+                 "local rows = model:pile_measures{ body = 'units', onto = 'floor' }.contacts\n"
+                 "local poses = model:pile{ body = 'units' }:poses()\n"
+                 "assert(#rows == 10 and #poses == 10)\n"
+                 "for i, number in ipairs{1, 2, 4, 5, 6, 7, 9, 10, 11, 12} do\n"
+                 "  assert(rows[i].unit == number and rows[i].contacts == 0)\n"
+                 "  assert(poses[i].unit == number and poses[i].pieces == 1)\n"
+                 "end") == "");
+}
+
+TEST_CASE("a pile tells which of its units have broken, from a file too, and a body of it is warned of",
+          "[lua]") {
+  const std::string broken =
+      head +
+      "local bar = cdem.box_mesh{ size = {2, 1, 1}, divisions = {4, 1, 1} }\n"
+      "local pile = cdem.drop{ unit = bar, count = 3, onto = slab, seed = 3, gap = 0.2 }\n"
+      "local joint = cdem.mohr_coulomb{ cohesion = 4e6, friction_angle = 30, tensile_strength = 2e6 }\n"
+      "local model = cdem.model{ bodies = { { shape = pile, material = concrete, joint = joint, bonds = 'springs',\n"
+      "                                       name = 'units' } } }\n"
+      "assert(pile.broken == 0 and model:pile{ body = 'units' }.broken == 0)\n"
+      "local c = pile:poses()[2].centroid\n"
+      "local around = cdem.select.box{ min = {c[1] - 1.3, c[2] - 1.3, c[3] - 1.3},\n"
+      "                                max = {c[1] + 1.3, c[2] + 1.3, c[3] + 1.3} }\n"
+      "model:break_bonds{ on = around }\n"
+      "local now = model:pile{ body = 'units' }\n";
+  const std::string told = "assert(now.broken == 1)\n"
+                           "for i, pose in ipairs(now:poses()) do\n"
+                           "  assert(pose.unit == i and pose.pieces == (i == 2 and 24 or 1))\n"
+                           "  close(pose.largest_piece, i == 2 and 1 / 24 or 1)\nend\n";
+  CHECK(error_of(broken + told +
+                 "now:save{ file = 'broken.json' }\nnow = cdem.read_pile{ file = 'broken.json' }\n" + told) ==
+        "");
+  const auto warned = [&](const std::string& shape) {
+    const std::vector<std::string> warnings = warnings_of(
+        broken + "cdem.model{ bodies = { { shape = " + shape + ", material = concrete, name = 'units' } } }");
+    return std::count_if(warnings.begin(), warnings.end(), [](const std::string& line) {
+      return line.find("1 unit of the pile had broken when it was taken; the body gets whole ones") !=
+             std::string::npos;
+    });
+  };
+  CHECK(warned("now:scaled{ factor = 2 }") == 1);
+  CHECK(warned("pile") == 0);
 }
 
 TEST_CASE("conditions work on chosen units alone", "[lua]") {

@@ -35,6 +35,15 @@ std::optional<geom::Pile> pile_shape(const Arguments& given) {
   return pile;
 }
 
+void warn_of_pieces(Session& session, const std::string& path, const PileObject& pile) {
+  if (const auto broken = std::count_if(pile.units.begin(), pile.units.end(),
+                                        [](const UnitNow& unit) { return unit.pieces > 1; });
+      broken > 0)
+    session.warn(path + ": " + geom::counted(broken, "unit") +
+                 " of the pile had broken when it was taken; the body gets whole ones, where the largest "
+                 "pieces lay");
+}
+
 void require_blocks(const Arguments& given, const std::string& path) {
   const std::string bonds = given.text_or("bonds", "springs");
   if (bonds != "springs" && bonds != "cohesive")
@@ -132,6 +141,8 @@ std::vector<std::string> read_bodies(Session& session, const Arguments& a, Model
       read_plasticity(given, path, body);
       if (mesh && !mesh->coarse.empty() && body.element != Element::rigid)
         session.warn(path + ": " + mesh->coarse);
+      if (const auto shape = given.object<PileObject>("shape"))
+        warn_of_pieces(session, path, *shape);
       if (const int parts = geom::count_parts(pile->unit); parts == 1)
         piles.emplace(body.name, *pile);
       else

@@ -202,18 +202,18 @@ Value lay(Session& session, Object*, const Arguments& a) {
 
 Value read_pile(Session& session, Object*, const Arguments& a) {
   const std::filesystem::path path = session.files.to_read(a.text("file"));
-  return std::make_shared<PileObject>(pile_from(read_file(path), a.text("file")));
+  return pile_from(read_file(path), a.text("file"));
 }
 
 Value save_pile(Session& session, PileObject& self, const Arguments& a) {
   require_ending(a.text("file"), ".json");
   if (!session.settings.check_only)
-    write_file(session.files.to_write(a.text("file")), pile_text(self.pile));
+    write_file(session.files.to_write(a.text("file")), pile_text(self));
   return {};
 }
 
 Value scaled(Session&, PileObject& self, const Arguments& a) {
-  return std::make_shared<PileObject>(geom::scaled(self.pile, a.number("factor")));
+  return std::make_shared<PileObject>(geom::scaled(self.pile, a.number("factor")), self.units);
 }
 
 Value with_unit(Session&, PileObject& self, const Arguments& a) {
@@ -228,7 +228,7 @@ Value with_unit(Session&, PileObject& self, const Arguments& a) {
                      "scale the pile first where the size differs");
   pile.height = self.pile.height;
   pile.poses = self.pile.poses;
-  return std::make_shared<PileObject>(std::move(pile));
+  return std::make_shared<PileObject>(std::move(pile), self.units);
 }
 
 Value walls(Session&, PileObject& self, const Arguments& a) {
@@ -236,12 +236,24 @@ Value walls(Session&, PileObject& self, const Arguments& a) {
       self.pile, ground_of(a), {a.optional_number("height"), a.optional_number("thickness")}));
 }
 
-const Record<geom::Pose> pose_record{
+struct UnitPose : geom::Pose, UnitNow {};
+
+std::vector<UnitPose> poses(const PileObject& self) {
+  std::vector<UnitPose> rows;
+  for (std::size_t i = 0; i < self.units.size(); ++i)
+    rows.push_back({self.pile.poses[i], self.units[i]});
+  return rows;
+}
+
+const Record<UnitPose> pose_record{
     "Pose",
-    "Place and attitude of a unit.",
-    {{vec3("centroid", "m"), &geom::Pose::translation},
+    "Place and attitude of a unit; of one that has broken, those that its largest piece gives it.",
+    {{integer("unit").doc("its number in the body, from 1"), &UnitPose::number},
+     {vec3("centroid", "m"), &UnitPose::translation},
      {list("rotation", vec3_type(), 3).required().doc("rows of the matrix that turns the unit"),
-      [](const geom::Pose& pose) { return as_value(pose.rotation); }}}};
+      [](const UnitPose& pose) { return as_value(pose.rotation); }},
+     {integer("pieces").doc("into which it has broken; 1: it is whole"), &UnitPose::pieces},
+     {number("largest_piece").doc("part of the unit's volume in it"), &UnitPose::largest_piece}}};
 
 void bind_class(Module& m) {
   m.records.push_back(pose_record);
@@ -263,6 +275,11 @@ void bind_class(Module& m) {
                 [](const PileObject& p) { return geom::volume(p.pile.unit); });
   pile.property("nominal_diameter", "number", "m", "Dn, side of a cube of that volume",
                 [](const PileObject& p) { return geom::nominal_diameter(p.pile); });
+  pile.property("broken", "integer", "", "units of which no piece has more than nine tenths of the volume",
+                [](const PileObject& p) {
+                  return std::count_if(p.units.begin(), p.units.end(),
+                                       [](const UnitNow& unit) { return unit.broken(); });
+                });
   pile.add("scaled", "The same pile in another size: all lengths about the origin times the factor.",
            {number("factor").above(0).required()}, scaled, "cdem.Pile");
   pile.add("with_unit",
@@ -282,7 +299,7 @@ void bind_class(Module& m) {
            walls, "cdem.TetMesh");
   pile.add(
       "poses", "Place and attitude of each unit.", {},
-      [](PileObject& self) { return pose_record.list(self.pile.poses); }, "cdem.Pose[]");
+      [](PileObject& self) { return pose_record.list(poses(self)); }, "cdem.Pose[]");
   pile.add(
       "box", "Smallest axis-aligned box that holds all units where they are.", {},
       [](PileObject& self) { return geom::bounding_box(self.pile); }, "cdem.Box");

@@ -1,5 +1,6 @@
 // The units of a model's body: the pile they are now, its measures, and which of them lie lowest.
 #include "libcdem/results/units.hpp"
+#include "libcdem/model/unit_order.hpp"
 #include "lua/binding/module/record.hpp"
 #include "lua/binding/objects/pile_object.hpp"
 #include "lua/binding/session/model_object.hpp"
@@ -45,15 +46,16 @@ Value pile(Session&, ModelObject& model, const Arguments& a) {
       cdem::units_of(model.simulation.model(), model.simulation.state(), a.text("body"));
   const std::vector<Block>& blocks = model.simulation.model().blocks;
   std::vector<geom::Pose> poses; // of the units that are left
-  for (const Unit& unit : units)
-    if (static_cast<std::size_t>(blocks[unit.block].unit) >
-        now.poses.size()) // of a saved state of another script
+  std::vector<UnitNow> units_now;
+  for (const Unit& unit : units) {
+    const int number = blocks[unit.block].unit;
+    if (static_cast<std::size_t>(number) > now.poses.size()) // of a saved state of another script
       throw InputError("body", "\"" + a.text("body") + "\"", "the body that this script made of a pile");
-    else
-      poses.push_back(
-          geom::after(unit.motion, now.poses[static_cast<std::size_t>(blocks[unit.block].unit - 1)]));
+    poses.push_back(geom::after(unit.motion, now.poses[static_cast<std::size_t>(number - 1)]));
+    units_now.push_back({number, unit.pieces, unit.largest_piece});
+  }
   now.poses = std::move(poses);
-  return std::make_shared<PileObject>(std::move(now));
+  return std::make_shared<PileObject>(std::move(now), std::move(units_now));
 }
 
 const Record<geom::PileMeasures> layer_record{
@@ -70,22 +72,50 @@ const Record<geom::PileMeasures> layer_record{
      {number("thickness", "m").doc("mean height of the top above the slope"), &geom::PileMeasures::thickness},
      {number("area", "m2").doc("of slope that was measured"), &geom::PileMeasures::area}}};
 
-const Record<std::vector<int>> touching_record{
-    // other blocks that press on each unit
+struct UnitContacts {
+  int unit = 0, contacts = 0;
+};
+
+const Record<UnitContacts> unit_contacts_record{
+    "UnitContacts",
+    "How many neighbours press on a unit.",
+    {{integer("unit").doc("its number in the body, from 1"), &UnitContacts::unit},
+     {integer("contacts").doc("other meshed blocks that press on it"), &UnitContacts::contacts}}};
+
+struct Touching {
+  std::vector<UnitContacts> units; // those that are left
+};
+
+const Record<Touching> touching_record{
     {{number("contacts_per_unit").required().doc("mean number of other meshed blocks that press on a unit"),
-      [](const std::vector<int>& touching) {
-        return std::accumulate(touching.begin(), touching.end(), 0.0) / static_cast<double>(touching.size());
+      [](const Touching& t) {
+        const auto add = [](int sum, const UnitContacts& unit) { return sum + unit.contacts; };
+        return std::accumulate(t.units.begin(), t.units.end(), 0, add) / static_cast<double>(t.units.size());
       }},
      {integer("fewest_contacts").required().doc("of any unit"),
-      [](const std::vector<int>& touching) { return *std::min_element(touching.begin(), touching.end()); }},
-     {list("contacts", number_type()).required().doc("of each unit"),
-      [](const std::vector<int>& touching) { return touching; }}}};
+      [](const Touching& t) {
+        return std::min_element(
+                   t.units.begin(), t.units.end(),
+                   [](const UnitContacts& a, const UnitContacts& b) { return a.contacts < b.contacts; })
+            ->contacts;
+      }},
+     {list("contacts", object_type("UnitContacts")).doc("of each unit that is left"), &Touching::units,
+      unit_contacts_record}}};
+
+Touching touching_now(const ModelObject& model, const std::string& body) {
+  const Model& now = model.simulation.model();
+  const std::vector<int> contacts = cdem::touching(now, model.simulation.state(), body);
+  Touching touching;
+  for (const int block : units_of_body(now, body))
+    touching.units.push_back({now.blocks[block].unit, contacts[touching.units.size()]});
+  return touching;
+}
 
 Value measures(Session& session, ModelObject& model, const Arguments& a) {
   const geom::Pile& first = first_pile(model, a.text("body"));
   require_body(model, "onto", a.text("onto"));
   if (session.settings.check_only) {
-    Table table = touching_record({0});
+    Table table = touching_record({{{1, 0}}});
     table.named.merge(layer_record({}).named);
     return table;
   }
@@ -100,8 +130,7 @@ Value measures(Session& session, ModelObject& model, const Arguments& a) {
       ground.triangles.push_back(t);
     }
   }
-  Table table =
-      touching_record(cdem::touching(model.simulation.model(), model.simulation.state(), a.text("body")));
+  Table table = touching_record(touching_now(model, a.text("body")));
   try {
     table.named.merge(layer_record(geom::measure_pile(surfaces_of(model.simulation.model(),
                                                                   model.simulation.state(), a.text("body")),
@@ -148,13 +177,14 @@ void bind_units(Module& m) {
                       "How densely units lie on a slope, away from the edge of the pile by about one unit.",
                       layer_record.fields() + RecordType(touching_record).fields};
   m.records.push_back(std::move(measured));
+  m.records.push_back(unit_contacts_record);
   m.records.push_back(contacts_record);
   Class& model = m.the_class("Model");
   const Field body = text("body").required().doc("name of a meshed body");
   model.add("pile",
             "The units of a body that are left, as they lie now, without their deformation: a pile that can "
-            "be scaled, "
-            "saved and be the shape of a body of another model.",
+            "be scaled, saved and be the shape of a body of another model. A unit that has broken stands as "
+            "its largest piece does; the pile's `broken` and the `pieces` of its poses tell of it.",
             {body}, pile, "cdem.Pile");
   model.add("pile_measures",
             "Porosity, density and thickness of a layer of units, and how many neighbours press on them.",

@@ -83,6 +83,10 @@ public:
     list(json, name, 3);
     return {number(json[0], name), number(json[1], name), number(json[2], name)};
   }
+  void require(bool holds, const std::string& otherwise) const {
+    if (!holds)
+      refuse(source_, otherwise);
+  }
   template <class Read>
   void each(const Json& json, const std::string& name, const Read& read) const {
     std::size_t index = 0;
@@ -94,7 +98,20 @@ private:
   const std::string& source_;
 };
 
-void read_pile(const PileReader& in, const Json& json, geom::Pile& pile) {
+// Files of before tell of no numbers and pieces: their units are whole, and numbered in their order.
+UnitNow read_unit(const PileReader& in, const Json& given, const std::string& name, std::size_t place) {
+  UnitNow unit{static_cast<int>(place)};
+  if (!given.contains("number"))
+    return unit;
+  unit.number = in.integer(given["number"], name + ".number");
+  unit.pieces = in.integer(in.member(given, "pieces", name), name + ".pieces");
+  unit.largest_piece = in.number(in.member(given, "largest_piece", name), name + ".largest_piece");
+  in.require(unit.number >= 1 && unit.pieces >= 1 && unit.largest_piece > 0 && unit.largest_piece <= 1,
+             name + ": number and pieces count from 1, and largest_piece is in (0, 1]");
+  return unit;
+}
+
+void read_pile(const PileReader& in, const Json& json, geom::Pile& pile, std::vector<UnitNow>& units) {
   pile.height = in.number(in.member(json, "height"), "height");
   in.each(in.member(json, "poses"), "poses", [&](const Json& given, const std::string& name) {
     geom::Pose pose;
@@ -103,6 +120,7 @@ void read_pile(const PileReader& in, const Json& json, geom::Pile& pile) {
     for (std::size_t i = 0; i < 3; ++i)
       pose.rotation.row(static_cast<Eigen::Index>(i)) = in.vector(rows[i], name + ".rotation");
     pile.poses.push_back(pose);
+    units.push_back(read_unit(in, given, name, pile.poses.size()));
   });
   in.each(in.member(json, "nodes"), "nodes", [&](const Json& node, const std::string& name) {
     pile.unit.nodes.push_back(in.vector(node, name));
@@ -136,15 +154,27 @@ void require_outer_faces(const geom::TetMesh& mesh, const std::string& source) {
 
 } // namespace
 
-std::string pile_text(const geom::Pile& pile) {
+PileObject::PileObject(geom::Pile given) : pile(std::move(given)) {
+  for (std::size_t i = 0; i < pile.poses.size(); ++i)
+    units.push_back({static_cast<int>(i) + 1});
+}
+
+std::string pile_text(const PileObject& given) {
+  const geom::Pile& pile = given.pile;
   Json json{{"format", format}, {"height", pile.height}};
   for (const char* const list : {"poses", "nodes", "tets", "regions"})
     json[list] = Json::array();
-  for (const geom::Pose& pose : pile.poses)
+  for (std::size_t i = 0; i < pile.poses.size(); ++i) {
+    const geom::Pose& pose = pile.poses[i];
+    const UnitNow& unit = given.units[i];
     json["poses"].push_back(
         {{"centroid", numbers(pose.translation)},
          {"rotation",
-          {numbers(pose.rotation.row(0)), numbers(pose.rotation.row(1)), numbers(pose.rotation.row(2))}}});
+          {numbers(pose.rotation.row(0)), numbers(pose.rotation.row(1)), numbers(pose.rotation.row(2))}},
+         {"number", unit.number},
+         {"pieces", unit.pieces},
+         {"largest_piece", unit.largest_piece}});
+  }
   for (const geom::Vec3& x : pile.unit.nodes)
     json["nodes"].push_back(numbers(x));
   for (const geom::Tet& tet : pile.unit.tets)
@@ -155,7 +185,7 @@ std::string pile_text(const geom::Pile& pile) {
   return json.dump() + "\n";
 }
 
-geom::Pile pile_from(const std::string& text, const std::string& source) {
+std::shared_ptr<PileObject> pile_from(const std::string& text, const std::string& source) {
   Json json;
   try {
     json = Json::parse(shallow_json(text));
@@ -170,7 +200,8 @@ geom::Pile pile_from(const std::string& text, const std::string& source) {
   if (const Json& given = in.member(json, "format"); given != format)
     throw geom::InputError(source + ": format", shown(given), std::string("\"") + format + "\"");
   geom::Pile pile;
-  read_pile(in, json, pile);
+  std::vector<UnitNow> units;
+  read_pile(in, json, pile, units);
   if (pile.unit.region.size() != pile.unit.tets.size())
     throw geom::InputError(source + ": " + std::to_string(pile.unit.region.size()) + " regions for " +
                            std::to_string(pile.unit.tets.size()) + " tetrahedra; one for each is needed");
@@ -179,7 +210,7 @@ geom::Pile pile_from(const std::string& text, const std::string& source) {
   geom::validate(pile, source);
   if (!pile.unit.named.empty())
     require_outer_faces(pile.unit, source);
-  return pile;
+  return std::make_shared<PileObject>(std::move(pile), std::move(units));
 }
 
 } // namespace cdem::script

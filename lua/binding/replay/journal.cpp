@@ -36,7 +36,7 @@ void write(Writer& a, const Value& value) {
     }
   } else if (const auto pile = std::dynamic_pointer_cast<PileObject>(value.object())) {
     tag(Tag::pile);
-    archive_const(a, pile_text(pile->pile));
+    archive_const(a, pile_text(*pile));
   } else {
     tag(Tag::nil);
   }
@@ -70,7 +70,7 @@ Value read(Reader& a, int nested = 0) {
     return text;
   case Tag::pile:
     archive(a, text);
-    return std::make_shared<PileObject>(pile_from(text, "checkpoint"));
+    return pile_from(text, "checkpoint");
   case Tag::table:
     break;
   }
