@@ -8,13 +8,6 @@
 namespace cdem {
 namespace {
 
-TetGradients shape_at(const Model& model, const std::vector<Node>& position, int tet) {
-  std::array<geom::Vec3, 4> x;
-  for (int k = 0; k < 4; ++k)
-    x[k] = vec(position[model.tets[tet][k]]);
-  return tet_gradients(x);
-}
-
 const Elastic& material_of(const Model& model, int tet) {
   return model.bodies[model.blocks[model.tet_block[tet]].body].material;
 }
@@ -70,25 +63,6 @@ private:
   std::vector<int> nodes_;
   std::vector<geom::Mat3> blocks_;
 };
-
-// J / 2 of face_jumps.hpp, summed over the freed faces of each tet of a mesh, m3/s; empty where there are none.
-std::vector<geom::Mat3> velocity_jumps(const Model& model, const State& state,
-                                       const std::vector<Node>& position) {
-  std::vector<geom::Mat3> jumps(
-      model.mesh.sides.empty() ? 0 : model.tets.size() - static_cast<std::size_t>(model.mesh.first_tet),
-      geom::Mat3::Zero());
-  each_side(model.mesh, [&](int tet, int face, const geom::Triangle& own, const geom::Triangle& beyond) {
-    if (!holds(state.faces[face / lanes].stage[face % lanes]))
-      return;
-    geom::Vec3 jump = geom::Vec3::Zero();
-    for (int i = 0; i < 3; ++i)
-      jump += (vec(state.velocity[beyond[i]]) - vec(state.velocity[own[i]])) / 3;
-    const geom::Vec3 x0 = vec(position[own[0]]);
-    const geom::Vec3 area = 0.5 * (vec(position[own[1]]) - x0).cross(vec(position[own[2]]) - x0);
-    jumps[tet - model.mesh.first_tet] += 0.5 * jump * area.transpose();
-  });
-  return jumps;
-}
 
 // The strain of a tet depends on this: sum of sym(u of the node (x) gradient), with the nodes beyond its freed faces.
 struct Reach {
@@ -198,23 +172,6 @@ Stress tet_stress(const Model& model, const State& state, int tet) {
   return rigid < 0 ? stress : turned(rotation(state.rigid[rigid]), stress);
 }
 
-double mesh_elastic_energy(const Model& model, const State& state) {
-  if (model.mesh.empty())
-    return 0;
-  const std::vector<Node> position = present_places(model, state);
-  double energy = 0;
-  for (int t = model.mesh.first_tet; t < static_cast<int>(model.tets.size()); ++t) {
-    const Elastic& m = material_of(model, t);
-    const geom::Mat3 s = matrix(tet_stress(model, state, t));
-    const double trace = s.trace(), g = m.shear_modulus();
-    // sigma : C^-1 : sigma = (sigma : sigma - nu / (1 + nu) tr(sigma)^2) / 2G
-    const double work =
-        (s.squaredNorm() - m.poissons_ratio / (1 + m.poissons_ratio) * trace * trace) / (2 * g);
-    energy += 0.5 * work * shape_at(model, position, t).volume;
-  }
-  return energy;
-}
-
 double mesh_spring_energy(const Model& model, const State& state) {
   if (model.mesh.faces.empty())
     return 0;
@@ -243,31 +200,19 @@ FaceSpring face_point_response(const Model& model, const State& state, const std
                      slip_of(state, at.batch, at.lane));
 }
 
-State moved_back(const Model& model, const State& state, double lag) {
+std::vector<Node> displacement_ago(const State& state, double lag) {
+  std::vector<Node> u = state.displacement;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    u[i].x -= lag * state.velocity[i].x;
+    u[i].y -= lag * state.velocity[i].y;
+    u[i].z -= lag * state.velocity[i].z;
+  }
+  return u;
+}
+
+State moved_back(const State& state, double lag) {
   State moved = state;
-  for (std::size_t i = 0; i < state.velocity.size(); ++i) {
-    moved.displacement[i].x -= lag * state.velocity[i].x;
-    moved.displacement[i].y -= lag * state.velocity[i].y;
-    moved.displacement[i].z -= lag * state.velocity[i].z;
-  }
-  if (model.mesh.empty() || lag == 0)
-    return moved;
-  const std::vector<Node> position = present_places(model, state);
-  const std::vector<geom::Mat3> jumps = velocity_jumps(model, state, position);
-  for (int t = model.mesh.first_tet; t < static_cast<int>(model.tets.size()); ++t) {
-    if (model.blocks[model.tet_block[t]].rigid >= 0)
-      continue; // its stress stands still
-    const TetGradients shape = shape_at(model, position, t);
-    geom::Mat3 gradient = geom::Mat3::Zero();
-    for (int k = 0; k < 4; ++k)
-      gradient += vec(state.velocity[model.tets[t][k]]) * shape.gradient[k].transpose();
-    if (!jumps.empty())
-      gradient += jumps[t - model.mesh.first_tet] / shape.volume;
-    const Stress increment = elastic_stress(material_of(model, t), lag * gradient);
-    const int slot = model.mesh.tet_slot[t - model.mesh.first_tet];
-    for (int c = 0; c < 6; ++c)
-      moved.stress[slot / lanes].component[c][slot % lanes] -= increment[c];
-  }
+  moved.displacement = displacement_ago(state, lag);
   return moved;
 }
 

@@ -11,16 +11,17 @@ Stress tet_stress(const Model&, const State&, int tet);
 
 std::vector<Node> present_places(const Model&, const State&); // m (n_nodes)
 
-// J, sum V sigma : C^-1 : sigma / 2 over the tets, at the present places, and of the springs on bonded faces.
-double mesh_elastic_energy(const Model&, const State&);
-double mesh_spring_energy(const Model&, const State&);
+// J, sum V sigma : C^-1 : sigma / 2 over the tets, as they stood `lag` seconds ago, moving with their present velocity.
+double mesh_elastic_energy(const Model&, const State&, double lag = 0);
+double mesh_spring_energy(const Model&, const State&); // J, of the springs on bonded faces
 
 // One spring of a bonded face, or one point of a freed face of a cohesive body.
 FaceSpring face_point_response(const Model&, const State&, const std::vector<Node>& present_places,
                                const MeshChunk&, const FaceSpringPlace&);
 
-// As mesh stands `lag` seconds earlier, moving with its present velocity: displacement and stress.
-State moved_back(const Model&, const State&, double lag);
+// m (n_nodes), `lag` seconds ago, with the present velocity; and the State with that displacement, all else as it is now.
+std::vector<Node> displacement_ago(const State&, double lag);
+State moved_back(const State&, double lag);
 
 // Adds the row sums of |K| of tets and bonded faces, N/m; per node the largest of its three rows.
 void add_mesh_row_sums(const Model&, std::vector<double>& sums);

@@ -144,7 +144,7 @@ WaterInJoints set_water(const Model& model, State& state, const Water& water) {
     throw geom::InputError("water_table", "below all joints of the place (" + water.on.text + ")",
                            "one that reaches above some of them", "pressure = 0 takes the water away");
   // Where velocities and summed energies stand.
-  State moved = moved_back(model, state, state.velocity_lag);
+  State moved = moved_back(state, state.velocity_lag);
   const double done = water_work(model, moved);
   state.water_pressure = std::move(pressure);
   if (std::all_of(state.water_pressure.begin(), state.water_pressure.end(), [](double p) { return p == 0; }))

@@ -42,12 +42,13 @@ double EnergyLedger::balance_error() const {
   return open > 0 ? open / scale() : 0;
 }
 
-double elastic_energy(const Model& model, const State& state) {
-  double energy = mesh_elastic_energy(model, state);
+double elastic_energy(const Model& model, const State& state, double lag) {
+  double energy = mesh_elastic_energy(model, state, lag);
   const int star_tets = model.mesh.empty() ? static_cast<int>(model.tets.size()) : model.mesh.first_tet;
+  const std::vector<Node> then = displacement_ago(state, lag);
   for (int tet = 0; tet < star_tets; ++tet) {
     const int block = model.tet_block[tet];
-    const geom::Mat3 h = displacement_gradient(model, state.displacement, tet);
+    const geom::Mat3 h = displacement_gradient(model, then, tet);
     const geom::Mat3 strain = 0.5 * (h + h.transpose());
     const Stress elastic = elastic_stress(model.bodies[model.blocks[block].body].material, h);
     const geom::Mat3 work = 0.5 * matrix(elastic) + matrix(state.initial_stress[tet]);
@@ -92,13 +93,16 @@ std::vector<double> speeds_of_blocks(const Model& model, const State& state) {
 EnergyLedger energy(const Model& model, const State& state) {
   // Central differences keep the balance where velocities and work stand, half a step before the displacements: there
   // the stored terms are taken too. Taken at the displacements they would be off by half a step's work, 0.2 % for a bar.
-  const State moved = moved_back(model, state, state.velocity_lag);
+  const double lag = state.velocity_lag;
   EnergyLedger ledger = state.spent;
-  ledger.elastic = elastic_energy(model, moved);
-  ledger.springs = spring_energy(model, moved) + mesh_spring_energy(model, moved) +
-                   contact_energy(model, state, state.velocity_lag);
+  ledger.elastic = elastic_energy(model, state, lag);
+  if (!model.points.empty() || !model.mesh.faces.empty()) {
+    const State moved = moved_back(state, lag);
+    ledger.springs = spring_energy(model, moved) + mesh_spring_energy(model, moved);
+    ledger.external += water_work(model, moved);
+  }
+  ledger.springs += contact_energy(model, state, lag);
   ledger.kinetic = kinetic_energy(model, state);
-  ledger.external += water_work(model, moved);
   ledger.external_peak = std::max(ledger.external_peak, std::abs(ledger.external));
   ledger.least = least_energy(model);
   return ledger;

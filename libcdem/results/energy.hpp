@@ -13,6 +13,7 @@ double kinetic_energy(const Model&, const State&); // J, of nodes and rigid bodi
 // m/s (n_blocks): sqrt(2 E / m) of each block's kinetic energy and mass, so that what turns on the spot moves too.
 std::vector<double> speeds_of_blocks(const Model&, const State&);
 
-double elastic_energy(const Model&, const State&); // J, sum V (sigma0 : eps + eps : C : eps / 2)
+// J, sum V (sigma0 : eps + eps : C : eps / 2), `lag` seconds ago with the present velocity.
+double elastic_energy(const Model&, const State&, double lag = 0);
 
 } // namespace cdem
