@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace cdem::script {
 
@@ -45,9 +46,31 @@ std::string ModelObject::history_name() const {
          (number == 1 ? std::string("history.csv") : "history_" + std::to_string(number) + ".csv");
 }
 
+namespace {
+
+// The bytes of numbers, NaN among them.
+bool begins_with(const Columns& columns, const Columns& first) {
+  const auto has = [](const auto& all, const auto& some) {
+    const std::vector<double>&values = all.second, &before = some.second;
+    return all.first == some.first && values.size() >= before.size() &&
+           (before.empty() || std::memcmp(values.data(), before.data(), before.size() * sizeof(double)) == 0);
+  };
+  return std::equal(columns.begin(), columns.end(), first.begin(), first.end(), has);
+}
+
+} // namespace
+
+// A script may run thousands of stages: rows that have been written keep their text.
 void ModelObject::write_history(const Session& session) const {
-  led_act("history",
-          [&] { write_file(session.files.to_write(history_name()), csv(history_columns(simulation))); });
+  led_act("history", [&] {
+    Columns columns = history_columns(simulation);
+    if (begins_with(columns, written.columns))
+      written.text += csv_rows(columns, written.columns.front().second.size());
+    else
+      written.text = csv(columns);
+    written.columns = std::move(columns);
+    write_file(session.files.to_write(history_name()), written.text);
+  });
 }
 
 void ModelObject::write_films(const Session& session) {
@@ -67,9 +90,9 @@ void ModelObject::write_films(const Session& session) {
   }
 }
 
-std::vector<std::pair<std::string, std::vector<double>>> history_columns(const Simulation& simulation) {
+Columns history_columns(const Simulation& simulation) {
   const auto& rows = simulation.log().history;
-  std::vector<std::pair<std::string, std::vector<double>>> columns;
+  Columns columns;
   const auto add = [&](const std::string& name, auto get) {
     std::vector<double> values;
     values.reserve(rows.size());
@@ -94,15 +117,19 @@ std::vector<std::pair<std::string, std::vector<double>>> history_columns(const S
   return columns;
 }
 
-std::string csv(const std::vector<std::pair<std::string, std::vector<double>>>& columns) {
+std::string csv(const Columns& columns) {
+  std::string head;
+  for (const auto& [name, values] : columns)
+    head += (head.empty() ? "" : ",") + csv_cell(name);
+  return head + '\n' + csv_rows(columns, 0);
+}
+
+std::string csv_rows(const Columns& columns, std::size_t first) {
   std::string out;
   std::size_t rows = 0;
-  for (const auto& [name, values] : columns) {
-    out += (out.empty() ? "" : ",") + csv_cell(name);
+  for (const auto& [name, values] : columns)
     rows = std::max(rows, values.size());
-  }
-  out += '\n';
-  for (std::size_t r = 0; r < rows; ++r) {
+  for (std::size_t r = first; r < rows; ++r) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const auto& values = columns[c].second;
       if (c > 0)

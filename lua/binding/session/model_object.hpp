@@ -10,6 +10,8 @@
 
 namespace cdem::script {
 
+using Columns = std::vector<std::pair<std::string, std::vector<double>>>; // of a table of numbers, by name
+
 struct ModelObject final : Object {
   explicit ModelObject(Simulation given) : simulation(std::move(given)) {}
 
@@ -25,7 +27,11 @@ struct ModelObject final : Object {
   std::vector<Film> films;                                // taken while it is solved; their frames: series
   std::vector<std::shared_ptr<Reference>> after_stage;    // called with each stage that has ended
   std::shared_ptr<Reference> memory;                      // table model.memory
-  double told_open = 0;                                   // energy balance that the user was warned of
+  mutable struct {
+    Columns columns;
+    std::string text;
+  } written;            // of the history, as its file stands
+  double told_open = 0; // energy balance that the user was warned of
   std::string told_slivers;
   int failing_since =
       0; // stage whose relaxation found that the model runs away; 0: none, or it has come to rest since
@@ -48,9 +54,10 @@ struct ModelObject final : Object {
 };
 
 // The history as columns by name, in the order of the file.
-std::vector<std::pair<std::string, std::vector<double>>> history_columns(const Simulation&);
+Columns history_columns(const Simulation&);
 // The name of a new history; what: what becomes of it.
 std::string column_name(const Arguments&, const std::string& what = "it begins the names of columns");
-std::string csv(const std::vector<std::pair<std::string, std::vector<double>>>& columns);
+std::string csv(const Columns&);
+std::string csv_rows(const Columns&, std::size_t first); // from the row `first` on, without the names
 
 } // namespace cdem::script
