@@ -40,6 +40,7 @@ struct SimulatedModel {
     StepChoice step_choice{};
   };
   std::optional<End> end_of_run;
+  std::shared_ptr<KeptWork> work; // of the last stage; null: none is kept
 
   // All ranks call these together.
   const State& whole() const {

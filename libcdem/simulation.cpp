@@ -38,6 +38,7 @@ Simulation Simulation::copy() const {
   s = *impl_;
   s.stage = 0;
   s.replaying = false;
+  s.work = nullptr; // one stage takes it
   s.log = {};
   s.log.unmet = impl_->log.unmet;
   if (!s.end_of_run) {

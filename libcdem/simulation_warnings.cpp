@@ -117,11 +117,12 @@ void Warnings::of_held_records() {
           "watch of \"{}\": a fix holds all its units still, so that none can leave; watch another "
           "body, or release it",
           model_.bodies[model_.blocks[watch.blocks.front()].body].name));
+  const std::shared_ptr<const TetsByPlace> tets = log_.probes.empty() ? nullptr : tets_by_place(model_);
   for (const Probe& probe : log_.probes) {
     const std::string name =
         probe.name.substr(0, probe.name.size() - std::min<std::size_t>(2, probe.name.size()));
     if (probe.crack.empty()) {
-      const auto at = tets_by_place(model_)->find(model_, probe.place);
+      const auto at = tets->find(model_, probe.place);
       if (at && (of_nodes(probe.field) ? still_place(*at) : still(at->block)))
         tell(fmt::format("probe \"{}\": a fix holds the rock at ({:g}, {:g}, {:g}) m still: {} never changes "
                          "there; look at its place",

@@ -75,6 +75,7 @@ void StageSequence::run(const Solve& solve, const std::optional<SimulatedModel::
   in_stage_ = true;
   context.restart_point = &restart_point_;
   std::optional<RestartPoint> entry = std::exchange(from_, std::nullopt);
+  context.kept = &of_.work;
   if (entry)
     of_.last_good = of_.kept;
   else if (of_.end_of_run && step_choice && of_.end_of_run->step_choice == *step_choice)
@@ -188,6 +189,7 @@ void StageSequence::restore(std::string_view saved, bool state_only) {
   of_.kept = std::move(state_then);
   of_.last_good = ends ? std::move(state_at_end) : of_.kept;
   of_.end_of_run = std::move(end_then);
+  of_.work = nullptr;
   from_.reset();
   int stage = 0;
   archive(a, stage);

@@ -168,6 +168,8 @@ public:
       else
         scaled_.take(context.from->loop_state);
     }
+    if (stage_.stable == 0)
+      find_stable_step();
     set_goals();
     lead_supports();
     stage_.sample_start();
@@ -200,7 +202,7 @@ public:
     if (changed) {
       const double before = stepping_.time_step;
       viscous_ = viscous_forces(model_);
-      stable_now_ = model_.frames.empty() ? 0 : stable_of_all();
+      find_stable_step();
       stable_of_mesh_ = stable_of_mesh();
       if (joined && options_.time_step == 0 && !scaled_.on())
         take_step(choose_time_step(context_, options_));
@@ -213,9 +215,9 @@ public:
     }
     if (chooses_step_ && (changed || stage_.begins() || stage_.is_due(watch_every)) &&
         any_dry_joint(model_, state_))
-      shorten(options_.safety * stable_step_of_dry_joints(stable_now_));
+      shorten(options_.safety * stable_step_of_dry_joints(stage_.stable));
     stage_.work.bond.contact_damping = contact_damping(
-        stepping_.time_step, scaled_.on() ? stepping_.time_step / options_.safety : stable_now_);
+        stepping_.time_step, scaled_.on() ? stepping_.time_step / options_.safety : stage_.stable);
   }
 
   void take_contacts(double longest) override {
@@ -306,9 +308,12 @@ private:
   }
 
   double stable_of_mesh() const { return stable_time_step(model_, stage_.work.resolved.bolts); }
-  double stable_of_all() const { // s; rigid bodies take half of their stable step at most
-    const double stable = stable_of_mesh();
-    return model_.surface.empty() ? stable : std::min(stable, 2 * rigid_time_step(model_, 1));
+  void find_stable_step() { // rigid bodies take half of their stable step at most
+    if (model_.frames.empty())
+      return;
+    stage_.stable = stable_of_mesh();
+    if (!model_.surface.empty())
+      stage_.stable = std::min(stage_.stable, 2 * rigid_time_step(model_, 1));
   }
   void take_step(double time_step) {
     stepping_.time_step = time_step;
@@ -335,7 +340,6 @@ private:
   const bool keeps_energy_of_impacts_ =
       options_.local_damping == 0 && options_.damp_flight && options_.time_step == 0;
   const bool has_crack_pressure_ = !context_.conditions.crack_pressures.empty();
-  double stable_now_ = model_.frames.empty() ? 0 : stable_of_all(); // s
   // s; only where a fluid in a crack asks for it: it reads the whole model, whose other parts a rank has given back.
   double stable_of_mesh_ = has_crack_pressure_ ? stable_of_mesh() : 0;
   bool stopped_ = false;

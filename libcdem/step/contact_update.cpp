@@ -70,6 +70,16 @@ void ContactUpdate::go_on(ContactWork& work) {
   work.search.anew = false;
 }
 
+void ContactUpdate::go_on_from_end(const StageContext& context, ContactWork& work) {
+  rigid_reach_ = reaches_of_rigid(context.model, context.state);
+  deepest_ = {};
+  contacts_before_ = 0;
+  work.options = {};
+  work.step = 0;
+  work.due = true;
+  work.search.fragments_due = false;
+}
+
 void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_surfaces) const {
   if (model.surface.empty())
     return;

@@ -23,6 +23,8 @@ public:
 
   // As a stage that goes on: State::contacts holds all there are, and no fragment is new.
   static void go_on(ContactWork&);
+  // As a stage that goes on from the end of the one that this and the work are of: what was found near is near.
+  void go_on_from_end(const StageContext&, ContactWork&);
   // Contacts are looked for anew from here on, as by a stage that goes on from here: which pairs are skipped is not saved.
   // They have been evaluated for where the nodes are. same_surfaces: those of before; what is known of rigid pairs goes on,
   // as it changes no force.

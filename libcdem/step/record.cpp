@@ -141,7 +141,8 @@ std::int64_t record_begun_cracks(const Model& model, State& state, const BegunCr
   return static_cast<std::int64_t>(begun.broken.size());
 }
 
-void record_history(const StageContext& context, double residual, double kinetic) {
+void record_history(const StageContext& context, double residual, double kinetic,
+                    std::shared_ptr<const TetsByPlace>& tets) {
   const Model& model = context.model;
   const State& state = context.state;
   RunLog& log = context.log;
@@ -155,7 +156,6 @@ void record_history(const StageContext& context, double residual, double kinetic
   row.broken_tension = log.broken_tension;
   row.broken_shear = log.broken_shear;
   std::optional<CracksByBody> cracked; // looked at once, and only where somebody asks
-  std::shared_ptr<const TetsByPlace> tets;
   for (const Probe& probe : log.probes) {
     if (!probe.on.empty()) {
       const int axis = probe.crack.back() - 'x';

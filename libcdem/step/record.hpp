@@ -3,6 +3,7 @@
 
 #include "libcdem/fracture/begin_cracks.hpp"
 #include "libcdem/results/log.hpp"
+#include "libcdem/results/tet_at_place.hpp"
 #include "libcdem/step/stage_context.hpp"
 #include "libcdem/step/workspace.hpp"
 
@@ -18,8 +19,9 @@ std::int64_t record_face_breaks(const Model&, State&, Workspace&, RunLog&, int s
 std::int64_t record_begun_cracks(const Model&, State&, const BegunCracks&, RunLog&, int stage,
                                  std::int64_t step);
 
-// kinetic: J. Probes read stresses: they have to be caught up.
-void record_history(const StageContext&, double residual, double kinetic);
+// kinetic: J. Probes read stresses: they have to be caught up. tets: of the model, found here when it is null.
+void record_history(const StageContext&, double residual, double kinetic,
+                    std::shared_ptr<const TetsByPlace>& tets);
 
 // Bodies that touch now are taken out of RunLog::unmet.
 void strike_out_met(const Model&, const State&, RunLog&);

@@ -3,8 +3,10 @@
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/bond/release.hpp"
 #include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/load/water_forces.hpp"
+#include "libcdem/model/known_of_model.hpp"
 #include "libcdem/parallel/huge_pages.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 #include "libcdem/results/energy.hpp"
@@ -17,6 +19,7 @@
 
 #include <cmath>
 #include <exception>
+#include <utility>
 
 namespace cdem {
 namespace {
@@ -77,8 +80,20 @@ double relative_residual(const NodeSums& sums) {
 }
 
 Stage::Stage(const StageContext& context, std::string kind, double run_away)
-    : work(context.model, context.state, context.conditions), context_(context),
-      threads_(useful_threads(context.model, context.threads)), contacts_(context),
+    : Stage(context, std::move(kind), run_away,
+            context.kept ? std::exchange(*context.kept, nullptr) : nullptr) {}
+
+Stage::Stage(const StageContext& context, std::string kind, double run_away, std::shared_ptr<KeptWork> kept)
+    : Stage(context, std::move(kind), run_away, kept.get(),
+            context.from && kept && kept->end ? &*kept->end : nullptr) {}
+
+Stage::Stage(const StageContext& context, std::string kind, double run_away, KeptWork* kept,
+             KeptWork::End* end)
+    : work(end ? Workspace(context.model, context.state, context.conditions, std::move(end->bond),
+                           std::move(end->contact))
+               : Workspace(context.model, context.state, context.conditions)),
+      context_(context), threads_(useful_threads(context.model, context.threads)),
+      contacts_(end ? std::move(end->contacts) : ContactUpdate(context)),
       watch_(StrengthWatch::of(context.model)),
       run_away_(run_away), broken_{0, 0, context.log.broken_tension, context.log.broken_shear},
       progress_(context, std::move(kind)), shares_(context_, work) {
@@ -86,7 +101,16 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
   (void)instruction_set(); // a bad name of one is told of here, not by a thread
   context_.threads = threads_.threads();
   ask_for_huge_pages_of(context_.model, context_.state, work);
-  start_spring_forces(context_.model, context_.state, work.bond);
+  if (end) {
+    contacts_.go_on_from_end(context_, work.contact);
+    work.bond.contact_damping = work.bond.damping_step = 0;
+    stable = end->stable;
+    tets_by_place_ = end->tets_by_place;
+  } else {
+    start_spring_forces(context_.model, context_.state, work.bond);
+    if (kept && kept->tet_contacts && kept->model == fingerprint(context_.model))
+      take_tet_pairs(context_.model, context_.state, std::move(kept->tet_contacts), work.contact);
+  }
   shares_.share(moving());
   if (context_.from)
     go_on_from(*context_.from);
@@ -176,6 +200,7 @@ void Stage::synchronise() {
 }
 
 void Stage::synchronise_contacts(RunLog& log) {
+  contacts_as_kept_ = contacts_as_kept_ && !work.contact.due;
   try {
     contacts_.evaluate(context_, work.contact, log);
   } catch (const SolutionError&) { // the next step meets it again, and says so
@@ -365,19 +390,34 @@ StageResult Stage::finish() {
   tell(true);
   if (!kept_end_)
     keep_last_good(); // last: whoever ends a stage before goes on from the restart point and the state that stood there
+  keep_work();
   return {step, report.residual, context_.log.broken_tension - broken_.tension_before,
           context_.log.broken_shear - broken_.shear_before, progress_.wall_time()};
+}
+
+// Of several ranks, each would keep its share, and shares change.
+void Stage::keep_work() {
+  if (!context_.kept || !work.shared->alone())
+    return;
+  const auto kept = std::make_shared<KeptWork>();
+  kept->tet_contacts = work.contact.tet_contacts;
+  if (kept->tet_contacts)
+    kept->model = fingerprint(context_.model);
+  if (contacts_as_kept_)
+    kept->end = {std::move(work.bond), std::move(work.contact), std::move(contacts_), stable, tets_by_place_};
+  *context_.kept = kept;
 }
 
 void Stage::sample_start() {
   RunLog& log = context_.log;
   if (!log.history.empty() && log.history.back().stage == context_.number)
     return; // a stage of several loops, or one that goes on
+  // Probes read stresses, and the pressure in cracks works where stresses are advanced.
   std::optional<SynchronisedView> view;
-  if (!begins_)
+  if (!begins_ && !(context_.log.probes.empty() && context_.conditions.crack_pressures.empty()))
     view.emplace(*this, SynchronisedView::Of::whole);
   see_whole();
-  record_history(context_, 0, kinetic_energy(context_.model, context_.state));
+  record_history(context_, 0, kinetic_energy(context_.model, context_.state), tets_by_place_);
   sampled_start_ = true;
 }
 
@@ -387,7 +427,7 @@ void Stage::sample() {
     view.emplace(*this, SynchronisedView::Of::whole);
   else if (!context_.state.water_pressure.empty())
     see_whole();
-  record_history(context_, report.residual, report.sums.kinetic);
+  record_history(context_, report.residual, report.sums.kinetic, tets_by_place_);
 }
 
 void Stage::tell(bool last) {

@@ -8,6 +8,7 @@
 #include "libcdem/parallel/thread_choice.hpp"
 #include "libcdem/step/contact_update.hpp"
 #include "libcdem/step/escape.hpp"
+#include "libcdem/step/kept_work.hpp"
 #include "libcdem/step/options.hpp"
 #include "libcdem/step/progress_reporter.hpp"
 #include "libcdem/step/share_sums.hpp"
@@ -43,6 +44,7 @@ public:
       details;              // adds to what the progress line shows, but stage, kind and times; may be empty
   bool breaking = true;     // bonds may break
   double safety = 1;        // the longest step over the stable one
+  double stable = 0;        // s, the stable step as the procedure has found it; 0: it has not
   bool in_real_time = true; // velocities are per second: strength may depend on the rate, nodes join again
   std::function<void()> scale_masses; // after nodes have been freed; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
@@ -95,6 +97,10 @@ public:
 private:
   friend class SynchronisedView;
 
+  Stage(const StageContext& context, std::string kind, double run_away, std::shared_ptr<KeptWork> kept);
+  // end: of `kept`, from which the stage goes on; null: from none. kept: null where nothing is.
+  Stage(const StageContext& context, std::string kind, double run_away, KeptWork* kept, KeptWork::End* end);
+
   void make_step(Procedure&);
   // Gives interfaces that have slid new springs (fracture/renew_interfaces.hpp). True when it has: the stable step is
   // another one, and the stage can be left here.
@@ -125,6 +131,7 @@ private:
   void note(RestartPoint&, std::vector<double> loop_state) const;
   void require_sound_state(); // Throws SolutionError
   void keep_last_good();      // of this rank's share
+  void keep_work();           // for the next stage
   void synchronise_contacts(RunLog&);
   std::int64_t synchronise_stress(RunLog&); // returns how many springs broke, of which the log is told
   BegunCracks begun_cracks();               // what share_sums sends
@@ -144,7 +151,8 @@ private:
   void show();             // to an observer who wants to see the model
 
   StageContext context_;
-  bool sampled_start_ = false; // the last row of the history waits for its residual
+  std::shared_ptr<const TetsByPlace> tets_by_place_; // for probes; null: unknown
+  bool sampled_start_ = false;                       // the last row of the history waits for its residual
   ThreadChoice threads_;
   ContactUpdate contacts_;
   StrengthWatch watch_;   // empty without cohesive bodies
@@ -153,6 +161,7 @@ private:
   std::vector<int> slid_; // interfaces to renew before the next step
   bool begins_ = true;    // no step of this stage, or of one that it goes on from, has been made before
   bool kept_end_ = false;
+  bool contacts_as_kept_ = false; // none has been looked at since the end was kept
   struct Good { // Workspace::strain_step (s) and the log, as they were for the state that was kept last
     double strain_step = 0;
     std::size_t breaks = 0;

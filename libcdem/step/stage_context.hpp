@@ -15,6 +15,7 @@
 namespace cdem {
 
 struct SeenForces; // step/support_forces.hpp
+struct KeptWork;   // step/kept_work.hpp
 std::shared_ptr<SeenForces> nobody_looks();
 
 struct StageContext {
@@ -34,6 +35,8 @@ struct StageContext {
   std::function<void(const std::vector<int>&)> renumbered{};
   std::shared_ptr<SeenForces> seen = nobody_looks(); // filled while somebody looks at the stage
   Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
+  // Of the stage before, taken by this one; then of this one, written where it ends. Null: nothing is kept.
+  std::shared_ptr<KeptWork>* kept = nullptr;
 };
 
 // The stage can be left here, where none of its loops has begun a step: the RestartPoint is written again. The caller

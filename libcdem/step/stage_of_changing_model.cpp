@@ -104,6 +104,7 @@ void Stage::change_nodes(Freed freed) {
   work.contact = std::move(before.contact);
   watch_.freed(model);
   work.watch = &watch_;
+  tets_by_place_ = nullptr;
   shares_.loads_are_whole();
   shares_.share(moving());
   if (near_known) {

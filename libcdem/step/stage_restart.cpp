@@ -53,6 +53,8 @@ void Stage::keep_end(std::vector<double> loop_state) {
   synchronise_contacts(context_.log); // as the next step would
   keep_last_good();
   kept_end_ = true;
+  contacts_as_kept_ =
+      context_.model.surface.empty() || !(work.contact.due || work.contact.search.fragments_due);
   RestartPoint point;
   note(point, std::move(loop_state));
   *context_.restart_point = std::move(point);

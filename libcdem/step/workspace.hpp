@@ -16,6 +16,7 @@ namespace cdem {
 struct Workspace {
   // contacts: of the places where the nodes are; null: nobody knows them, and they are to be searched for.
   Workspace(const Model&, const State&, const Conditions&, const ContactLoads* contacts = nullptr);
+  Workspace(const Model&, const State&, const Conditions&, BondWork, ContactWork);
 
   ResolvedConditions resolved;
   BondWork bond;
