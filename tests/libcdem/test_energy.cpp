@@ -1,8 +1,10 @@
 // The energy ledger: stored and spent terms against external work.
 #include "tests/libcdem/columns.hpp"
 
+#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -55,6 +57,22 @@ TEST_CASE("the ledger of an elastic bar under a sudden load balances to 1e-3 at 
   // times it.
   CHECK(cdem::energy(s.model, s.state).external_peak >
         3 * 0.5 * 1e12 / bar.material().youngs_modulus * bar.area());
+}
+
+TEST_CASE("a mesh had the elastic energy of the strain that its velocity has taken back since", "[energy]") {
+  System s(build({meshed("box", geom::box_mesh({1, 0.8, 0.6}, {3, 2, 2}, 0.15))}));
+  geom::Mat3 gradient; // 1/s, of the velocity
+  gradient << 1e-3, 2e-3, -3e-3, 5e-4, -2e-3, 1e-3, 4e-3, -1e-3, 1.5e-3;
+  for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+    s.state.velocity[i] = cdem::node(gradient * s.model.node_position[i]);
+  const double lag = 0.5; // s
+  const geom::Mat3 strain = 0.5 * lag * (gradient + gradient.transpose());
+  const cdem::Elastic material = rock();
+  const double density = 0.5 * material.lame_lambda() * strain.trace() * strain.trace() +
+                         material.shear_modulus() * strain.squaredNorm(); // J/m3
+  const double volume = 1 * 0.8 * 0.6 * (geom::Mat3::Identity() - lag * gradient).determinant();
+  CHECK(cdem::mesh_elastic_energy(s.model, s.state, lag) == Approx(density * volume).epsilon(1e-10));
+  CHECK(cdem::mesh_elastic_energy(s.model, s.state) == 0);
 }
 
 TEST_CASE("the ledger balances to 1 % while bonds break and faces slide", "[energy]") {

@@ -125,6 +125,21 @@ TEST_CASE("histories and probes come as lists of one length and as history.csv",
                    0) == 0);
 }
 
+TEST_CASE("history.csv has every row once, also where stages follow each other and a probe comes later",
+          "[lua]") {
+  Script script(pulled + "local function same()\n"
+                         "  local file, h = cdem.read_csv('history.csv'), model:history()\n"
+                         "  for name, list in pairs(h) do\n"
+                         "    assert(#file[name] == #list, name)\n"
+                         "    for i, x in ipairs(list) do assert(file[name][i] == x or x ~= x, name) end\n"
+                         "  end\n"
+                         "end\n"
+                         "for i = 1, 3 do model:run{ steps = 15 } same() end\n"
+                         "model:probe{ name = 'ux', field = 'displacement.x', at = {2, 0.5, 0.5} }\n"
+                         "for i = 1, 2 do model:run{ steps = 15 } same() end");
+  CHECK(script.error() == "");
+}
+
 namespace {
 
 // hash(contacts): the state of three blocks in a row after they were pushed along it and across.
