@@ -33,11 +33,12 @@ struct SimulatedModel {
   std::shared_ptr<SeenForces> seen = nobody_looks(); // of the last stage
 
   // Where the last run ended, with the state in last_good: a run that follows goes on from there, with the steps that the
-  // last one chose, if it is to choose them in the same way. Null: something has been changed since, or solved otherwise.
+  // last one chose, if it is to choose them in the same way. Null: the state has been changed since, or solved otherwise.
   using StepChoice = std::array<double, 4>; // of RunOptions: safety, time_step, mass_scaling
   struct End {
     RestartPoint point;
     StepChoice step_choice{};
+    bool with_other_conditions = false; // those of now, or other strengths
   };
   std::optional<End> end_of_run;
   std::shared_ptr<KeptWork> work; // of the last stage; null: none is kept
@@ -46,6 +47,10 @@ struct SimulatedModel {
   const State& whole() const {
     make_whole(kept);
     return kept;
+  }
+  void change_conditions() {
+    if (end_of_run)
+      end_of_run->with_other_conditions = true;
   }
   State& changing() {
     end_of_run.reset();

@@ -72,7 +72,7 @@ void Simulation::reduce_strength(double factor, const StrengthKinds& kinds) {
         "reduce_strength: forces of an excavation are kept, up to {:.3g} of their size: they hold the rock "
         "like a support, and a factor of safety counts on them; model:relax_excavation{{}} lets them go",
         share));
-  impl_->end_of_run.reset();
+  impl_->change_conditions();
   cdem::reduce_strength(impl_->model, factor, kinds);
 }
 

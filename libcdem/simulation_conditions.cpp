@@ -19,7 +19,7 @@ namespace {
 // fit together.
 template <class Add>
 void add_condition(SimulatedModel& s, const Add& add) {
-  s.end_of_run.reset();
+  s.change_conditions();
   if (!s.replaying) {
     Conditions tried;
     if (!s.model.rigid.empty())
@@ -189,13 +189,13 @@ void Simulation::gravity(const Gravity& gravity) {
   if (gravity.turning && gravity.amplitude)
     throw geom::InputError(
         "amplitude: goes with a constant vector; let the function that turns it scale it too");
-  impl_->end_of_run.reset();
+  impl_->change_conditions();
   impl_->conditions.gravity = gravity;
 }
 
 bool Simulation::flow(const Flow& flow) {
   check(flow);
-  impl_->end_of_run.reset();
+  impl_->change_conditions();
   Conditions changed = impl_->conditions;
   changed.flows.push_back(flow);
   if (impl_->replaying) {
@@ -229,7 +229,7 @@ void Simulation::crack_pressure(const CrackPressure& pressure) {
 }
 
 void Simulation::clear_loads() {
-  impl_->end_of_run.reset();
+  impl_->change_conditions();
   impl_->conditions.crack_pressures.clear();
   impl_->conditions.flows.clear();
   impl_->conditions.tractions.clear();

@@ -49,7 +49,7 @@ CDEM_ARCHIVE(FlowPatterns, flows, water_mass)
 CDEM_ARCHIVE(RestartPoint, step, begun, breaks, wall_time, tension_before, shear_before, loop_state,
              previous_force, spring_force, stretch, viscous, one_way, contact_step, strain_step, near, slid,
              flows, procedure_state)
-CDEM_ARCHIVE(SimulatedModel::End, point, step_choice)
+CDEM_ARCHIVE(SimulatedModel::End, point, step_choice, with_other_conditions)
 
 StageContext StageSequence::next() {
   warnings_.before_stage(); // asks functions of a script, from which the run may be stopped
@@ -78,8 +78,13 @@ void StageSequence::run(const Solve& solve, const std::optional<SimulatedModel::
   context.kept = &of_.work;
   if (entry)
     of_.last_good = of_.kept;
-  else if (of_.end_of_run && step_choice && of_.end_of_run->step_choice == *step_choice)
+  else if (of_.end_of_run && step_choice && of_.end_of_run->step_choice == *step_choice &&
+           !of_.end_of_run->with_other_conditions)
     entry = take_up(std::move(of_.end_of_run->point));
+  else if (of_.end_of_run && step_choice) {
+    gather_springs(of_.end_of_run->point);
+    context.before = &of_.end_of_run->point;
+  }
   if (entry) {
     restart_point_ = entry;
     context.from = &*entry;
@@ -100,13 +105,17 @@ void StageSequence::run_whole(const Solve& solve) {
   solve(next());
 }
 
-// Takes off the log whatever the run before has reported and the next step finds again.
-RestartPoint StageSequence::take_up(RestartPoint point) {
-  if (const std::shared_ptr<const StateShares> shares = of_.last_good.parted) {
-    make_whole(of_.last_good);
+void StageSequence::gather_springs(RestartPoint& point) const {
+  if (const std::shared_ptr<const StateShares> shares = of_.last_good.parted)
     for (std::vector<geom::Vec3>* of_points : {&point.spring_force, &point.stretch, &point.viscous})
       shares->gather_points(*of_points);
-  }
+}
+
+// Takes off the log whatever the run before has reported and the next step finds again.
+RestartPoint StageSequence::take_up(RestartPoint point) {
+  gather_springs(point);
+  if (of_.last_good.parted)
+    make_whole(of_.last_good);
   of_.kept = of_.last_good;
   point.broken_tension_before = of_.log.broken_tension;
   point.broken_shear_before = of_.log.broken_shear;
@@ -130,7 +139,7 @@ std::string StageSequence::save() const {
   if (!as_built)
     write(a, of_.model);
   write(a, then);
-  const bool ends = of_.end_of_run && !restart_point_;
+  const bool ends = of_.end_of_run && !(restart_point_ && restart_point_->begun);
   archive_const(a, ends);
   if (ends) {
     write(a, of_.last_good);

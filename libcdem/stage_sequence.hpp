@@ -30,6 +30,7 @@ public:
 
 private:
   StageContext next();
+  void gather_springs(RestartPoint&) const; // of the shares of last_good
   RestartPoint take_up(RestartPoint);
 
   SimulatedModel& of_;

@@ -108,6 +108,8 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away, Kep
     tets_by_place_ = end->tets_by_place;
   } else {
     start_spring_forces(context_.model, context_.state, work.bond);
+    if (context_.before)
+      take_springs(*context_.before);
     if (kept && kept->tet_contacts && kept->model == fingerprint(context_.model))
       take_tet_pairs(context_.model, context_.state, std::move(kept->tet_contacts), work.contact);
   }
@@ -216,13 +218,13 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
       if (!is_rigid(context_.model, context_.model.mesh.chunks[c]))
         mesh_forces(context_.model, context_.state, work, c, breaking_);
     });
-    work.strain_step = 0;
     work.shared->share_nodes(context_.state); // for the stress beside faces of others
     BegunCracks begun;
     if (breaking_ && !context_.model.mesh.sides.empty()) {
       work.near.forget();
       begun = begun_cracks();
     }
+    work.strain_step = 0;
     std::int64_t tellers = has_to_tell(work, begun) ? 1 : 0;
     ranks().sum(&tellers, 1);
     share_sums(work, begun, tellers);

@@ -127,6 +127,7 @@ private:
   void end_step(double time_step); // s; steps of unit length in a relaxation
   void watch();
 
+  void take_springs(const RestartPoint&); // of its step
   void go_on_from(const RestartPoint&);
   void note(RestartPoint&, std::vector<double> loop_state) const;
   void require_sound_state(); // Throws SolutionError

@@ -37,6 +37,9 @@ struct StageContext {
   Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
   // Of the stage before, taken by this one; then of this one, written where it ends. Null: nothing is kept.
   std::shared_ptr<KeptWork>* kept = nullptr;
+  // The end of the run before, where only conditions, strengths or the choice of the step are others since: the stage begins
+  // anew, and what its first step takes from springs is counted from the springs of there.
+  const RestartPoint* before = nullptr;
 };
 
 // The stage can be left here, where none of its loops has begun a step: the RestartPoint is written again. The caller

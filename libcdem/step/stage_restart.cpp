@@ -92,6 +92,12 @@ void Stage::go_back() {
   contacts_.start_anew(context_.model, work.contact, false);
 }
 
+void Stage::take_springs(const RestartPoint& from) {
+  work.bond.spring_force = from.spring_force;
+  work.bond.stretch = from.stretch;
+  work.bond.viscous = from.viscous;
+}
+
 void Stage::go_on_from(const RestartPoint& from) {
   if (context_.restart_point)
     *context_.restart_point = from;
@@ -106,9 +112,7 @@ void Stage::go_on_from(const RestartPoint& from) {
   work.strain_step = from.strain_step;
   if (!from.near.empty())
     take_near_of_all(from.near, work);
-  work.bond.spring_force = from.spring_force;
-  work.bond.stretch = from.stretch;
-  work.bond.viscous = from.viscous;
+  take_springs(from);
   slid_ = from.slid;
   take_flow_patterns(from.flows, work.resolved);
   place_water();

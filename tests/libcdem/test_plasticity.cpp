@@ -3,6 +3,7 @@
 
 #include "libcdem/material/plasticity.hpp"
 #include "libgeom/assembly/builders.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
 
 #include <catch2/catch.hpp>
 
