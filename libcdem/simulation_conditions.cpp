@@ -299,19 +299,7 @@ void Simulation::check_run(double begin, double end) {
     ask(pressure.volume);
   }
   if (c.gravity) {
-    constexpr double rounded = 5e-3;
-    const bool floats = std::any_of(c.flows.begin(), c.flows.end(), [](const Flow& flow) {
-      return flow.water && flow.water->has_pressure();
-    });
-    const Amplitude& amplitude = c.gravity->amplitude;
-    if (amplitude)
-      ask(std::function<void(double)>([&](double time) {
-        if (const double part = amplitude(time); floats && !(std::abs(part - 1) < rounded))
-          throw geom::InputError(
-              "gravity: amplitude", fmt::format("{:g} at t = {:g} s", part, time),
-              "1 beside a flow whose water has a pressure",
-              "the whole buoyancy would act on a part of the weight; let the water begin later");
-      }));
+    ask(amplitude_of_gravity(c));
     ask(c.gravity->turning);
   }
   impl_->warnings.look_for_dry_flows(begin, end);

@@ -152,9 +152,10 @@ void load(ResolvedConditions& r, Pattern&& pattern, const Amplitude& amplitude) 
 }
 
 // One that turns: a load along each axis.
-void add_gravity(const Model& model, const Gravity& gravity, ResolvedConditions& r) {
+void add_gravity(const Model& model, const Conditions& conditions, ResolvedConditions& r) {
+  const Gravity& gravity = *conditions.gravity;
   if (!gravity.turning) {
-    load(r, gravity_pattern(model, gravity, gravity.acceleration), gravity.amplitude);
+    load(r, gravity_pattern(model, gravity, gravity.acceleration), amplitude_of_gravity(conditions));
     return;
   }
   for (int axis = 0; axis < 3; ++axis)
@@ -300,6 +301,24 @@ void require_one_gravity(const Conditions& conditions) {
 
 } // namespace
 
+Amplitude amplitude_of_gravity(const Conditions& conditions) {
+  const Amplitude& amplitude = conditions.gravity->amplitude;
+  const bool floats = std::any_of(conditions.flows.begin(), conditions.flows.end(),
+                                  [](const Flow& flow) { return flow.water && flow.water->has_pressure(); });
+  if (!amplitude || !floats)
+    return amplitude;
+  return [amplitude](double time) {
+    constexpr double rounded = 5e-3;
+    const double part = amplitude(time);
+    if (!(std::abs(part - 1) < rounded))
+      throw geom::InputError(
+          "gravity: amplitude", fmt::format("{:g} at t = {:g} s", part, time),
+          "1 beside a flow whose water has a pressure",
+          "the whole buoyancy would act on a part of the weight; let the water begin later");
+    return part;
+  };
+}
+
 void refresh_flows(const Model& model, const State& state, ResolvedConditions& r) {
   r.water_mass.clear();
   for (ResolvedFlow& flow : r.flows) {
@@ -347,7 +366,7 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   for (const PointForce& force : conditions.forces)
     load(r, force_pattern(model, force), force.amplitude);
   if (conditions.gravity)
-    add_gravity(model, *conditions.gravity, r);
+    add_gravity(model, conditions, r);
   for (const Flow& flow : conditions.flows)
     if (!is_gone(model, flow))
       add_flow(model, flow, r);

@@ -480,4 +480,9 @@ TEST_CASE("bodies and the water that carries them have one gravity", "[water][in
   given.flow(in_water(cdem::uniform_water(still(0.5))));
   CHECK_THROWS_WITH(given.check_run(0.5, 2), Catch::Contains("gravity: amplitude"));
   CHECK_NOTHROW(given.check_run(1, 2));
+  cdem::RunOptions options;
+  options.steps = 1;
+  CHECK_THROWS_WITH(given.run(options), Catch::Contains("0 at t = 0 s"));
+  given.gravity(gravity({0, 0, -9.81}));
+  CHECK_NOTHROW(given.run(options));
 }
