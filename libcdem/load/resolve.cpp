@@ -7,6 +7,7 @@
 #include "libcdem/load/free_field.hpp"
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/water_forces.hpp"
+#include "libcdem/model/face_fan.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
@@ -212,6 +213,18 @@ std::vector<Met> met_blocks(const Model& model, const Flow& flow, const std::vec
   return met;
 }
 
+FaceFan fan_in_water(const Model& model, int block, std::vector<geom::Triangle>&& triangles) {
+  FaceFan fan;
+  fan.triangles = std::move(triangles);
+  for (geom::Triangle& nodes : fan.triangles) {
+    for (int& node : nodes)
+      node += model.blocks[block].node_begin;
+    const std::vector<geom::Vec3>& x = model.node_position;
+    fan.area += 0.5 * (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]).norm();
+  }
+  return fan;
+}
+
 void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
   ResolvedFlow resolved;
   resolved.faces = flow_faces(model, flow);
@@ -235,9 +248,11 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
       BlockInWater& in_water = resolved.in_water.emplace_back();
       in_water.asked.block = block;
       in_water.asked.first_node = model.blocks[block].node_begin;
+      for (std::vector<geom::Triangle>& triangles : fans_of(model, block))
+        in_water.fans.push_back(fan_in_water(model, block, std::move(triangles)));
       for (const int i : of_block) {
         const OuterFace& face = model.outer_faces[resolved.faces[i]];
-        in_water.face_corners += face.boundary >= 0 ? 3 : face.node_area.size();
+        in_water.face_corners += face.boundary >= 0 ? 3 : in_water.fans[face.face].corners(face);
       }
       in_water.faces = std::move(of_block);
     }

@@ -39,16 +39,28 @@ struct AskedWater {
   std::vector<BaredFace> bared;       // on other blocks before
 };
 
+// A face of a convex block, whole.
+struct FaceFan {
+  std::vector<geom::Triangle> triangles; // nodes
+  double area = 0;                       // m2
+
+  bool is_whole(const OuterFace& face) const { return face.area > (1 - 1e-9) * area; }
+  std::size_t corners(const OuterFace& face) const {
+    return is_whole(face) ? 3 * triangles.size() : face.node_area.size();
+  }
+};
+
 struct BlockInWater {
   AskedWater asked;
   std::vector<int> faces;                        // into ResolvedFlow::faces
+  std::vector<FaceFan> fans;                     // of each face of a convex block that is no part of a mesh
   std::size_t face_corners = 0;                  // of these
   std::size_t first_corner = 0, first_force = 0; // among those of the flow (place_water)
 
   std::size_t corners() const { // with those of faces that have opened
     std::size_t sum = face_corners + 3 * asked.opened.size();
     for (const BaredFace& bared : asked.bared)
-      sum += bared.face.node_area.size();
+      sum += fans[bared.face.face].corners(bared.face);
     return sum;
   }
 };

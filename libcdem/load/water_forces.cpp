@@ -155,19 +155,21 @@ class ForcesOnBlock {
 public:
   using Force = std::pair<int, geom::Vec3>;
   // here: memory for the nodes. corner: null without drag.
-  ForcesOnBlock(const Model& model, const State& state, const AskedWater& asked, std::vector<WaterHere>& here,
-                FlowCorner* corner, Force* force)
-      : model_(model), state_(state), asked_(asked), first_(asked.first_node), corner_(corner), force_(force),
-        here_(here) {
+  ForcesOnBlock(const Model& model, const State& state, const BlockInWater& in_water,
+                std::vector<WaterHere>& here, FlowCorner* corner, Force* force)
+      : model_(model), state_(state), in_water_(in_water), first_(in_water.asked.first_node), corner_(corner),
+        force_(force), here_(here) {
+    const std::vector<NodeInWater>& asked = in_water.asked.nodes;
     here_.clear();
-    for (std::size_t i = 0; i < asked.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < asked.size(); ++i) {
       const int node = first_ + static_cast<int>(i);
-      here_.push_back(continued(asked.nodes[i], place_of(model, state, node)));
-      force_[i] = {node, asked.nodes[i].inertia};
+      here_.push_back(continued(asked[i], place_of(model, state, node)));
+      force_[i] = {node, asked[i].inertia};
     }
   }
 
-  void triangle(const geom::Triangle& nodes, const CornerNormals* smooth) {
+  // drag: a stream reaches it.
+  void triangle(const geom::Triangle& nodes, const CornerNormals* smooth, bool drag = true) {
     const std::array<const WaterHere*, 3> corner{&at(nodes[0]), &at(nodes[1]), &at(nodes[2])};
     if (!corner[0]->wet() && !corner[1]->wet() && !corner[2]->wet())
       return add_dry(nodes);
@@ -181,21 +183,58 @@ public:
     const CornerNormals normals = smooth && corner_ ? turned_with(*smooth, x) : CornerNormals{n, n, n};
     for (int i = 0; i < 3; ++i) {
       force_[nodes[i] - first_].second -= wet.pressure[i] * n;
-      add(nodes[i], -wet.area[i] * normals[i]);
+      add(nodes[i], drag ? geom::Vec3(-wet.area[i] * normals[i]) : geom::Vec3(geom::Vec3::Zero()));
     }
   }
 
-  // drag: a stream reaches it.
   void block_face(const OuterFace& face, bool drag = true) {
-    const geom::Vec3 normal = present_normal(model_, state_, face);
-    for (const auto& [node, area] : face.node_area) {
-      const double wet = at(node).wet() ? area : 0;
-      force_[node - first_].second -= at(node).pressure * wet * normal;
-      add(node, drag ? geom::Vec3(-wet * normal) : geom::Vec3(geom::Vec3::Zero()));
-    }
+    const FaceFan& fan = in_water_.fans[face.face];
+    if (!fan.is_whole(face))
+      return part_of_face(face, fan, drag);
+    for (const geom::Triangle& nodes : fan.triangles)
+      triangle(nodes, nullptr, drag);
   }
 
 private:
+  // Others cover the rest. What is known of the part is the integral a of the shape function of each node. Under water its
+  // pressure is a p, exact in sum; where the surface cuts the face the node takes the share of what acts on the whole one.
+  void part_of_face(const OuterFace& face, const FaceFan& fan, bool drag) {
+    struct Whole {
+      double area = 0, wet = 0, pressure = 0, continued = 0; // m2, m2, N, N; continued: above the surface too
+    };
+    const auto& parts = face.node_area; // of all nodes of the face, ascending
+    thread_local std::vector<Whole> whole;
+    whole.assign(parts.size(), {});
+    const auto of = [&](int node) -> Whole& {
+      const auto found = std::lower_bound(parts.begin(), parts.end(), node,
+                                          [](const auto& part, int n) { return part.first < n; });
+      return whole[found - parts.begin()];
+    };
+    for (const geom::Triangle& nodes : fan.triangles) {
+      const std::array<const WaterHere*, 3> corner{&at(nodes[0]), &at(nodes[1]), &at(nodes[2])};
+      const auto& x = model_.node_position;
+      const double area = 0.5 * (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]).norm(),
+                   sum = corner[0]->pressure + corner[1]->pressure + corner[2]->pressure;
+      const WetTriangle wet(corner, area);
+      for (int i = 0; i < 3; ++i) {
+        Whole& of_node = of(nodes[i]);
+        of_node.area += area / 3;
+        of_node.wet += wet.area[i];
+        of_node.pressure += wet.pressure[i];
+        of_node.continued += area / 12 * (sum + corner[i]->pressure);
+      }
+    }
+    const geom::Vec3 normal = present_normal(model_, state_, face);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto& [node, area] = parts[i];
+      const double share = area / whole[i].area, under = whole[i].wet / whole[i].area;
+      const double pressure =
+          share * whole[i].pressure + under * (area * at(node).pressure - share * whole[i].continued);
+      force_[node - first_].second -= pressure * normal;
+      add(node, drag ? geom::Vec3(-under * area * normal) : geom::Vec3(geom::Vec3::Zero()));
+    }
+  }
+
   const WaterHere& at(int node) const { return here_[node - first_]; }
   void add_dry(const geom::Triangle& nodes) {
     for (const int node : nodes)
@@ -203,12 +242,12 @@ private:
   }
   void add(int node, const geom::Vec3& inward) {
     if (corner_)
-      *corner_++ = {node, inward, asked_.nodes[node - first_].water.velocity};
+      *corner_++ = {node, inward, in_water_.asked.nodes[node - first_].water.velocity};
   }
 
   const Model& model_;
   const State& state_;
-  const AskedWater& asked_;
+  const BlockInWater& in_water_;
   int first_;
   FlowCorner* corner_;
   Force* force_;
@@ -280,7 +319,7 @@ void place_water(const Model& model, const State& state, Range nodes, int thread
         return;
       }
       thread_local std::vector<WaterHere> here;
-      ForcesOnBlock on_block(model, state, asked, here, drag ? corner : nullptr, force);
+      ForcesOnBlock on_block(model, state, in_water, here, drag ? corner : nullptr, force);
       for (const int i : in_water.faces) {
         const OuterFace& face = model.outer_faces[flow.faces[i]];
         if (face.boundary >= 0)

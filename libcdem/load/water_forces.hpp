@@ -15,7 +15,8 @@
 // node was asked. Forces that stayed with the nodes of a body that moves would do work in a cycle: still water would drive it.
 //
 // The free surface cuts triangles by a line, and the pressure vanishes there, so in still water the buoyancy is that of the
-// cut mesh to rounding. It cuts tetrahedra by a plane likewise. Faces of convex blocks of small strain are cut at nodes only.
+// cut mesh to rounding. It cuts tetrahedra by a plane likewise. The faces of convex blocks are triangles too, but for those that
+// other blocks cover in part.
 // Weight is gravity's, in air as under water.
 #pragma once
 

@@ -84,9 +84,21 @@ std::shared_ptr<const cdem::WaterField> stream(const Vec3& velocity,
 
 TEST_CASE("still water carries a body as Archimedes said, at any attitude and draught", "[water]") {
   const Vec3 size(1, 0.6, 1.7);
-  const bool rigid = GENERATE(false, true);
-  System s(build({meshed("unit", geom::box_mesh(size, {2, 2, 3}))}));
-  if (rigid)
+  enum class Kind { mesh, rigid_mesh, block, rigid_block, block_of_small_strain, zoned_block };
+  const Kind kind = GENERATE(Kind::mesh, Kind::rigid_mesh, Kind::block, Kind::rigid_block,
+                             Kind::block_of_small_strain, Kind::zoned_block);
+  CAPTURE(static_cast<int>(kind));
+  const bool is_mesh = kind == Kind::mesh || kind == Kind::rigid_mesh;
+  cdem::BodySpec unit =
+      is_mesh ? meshed("unit", geom::box_mesh(size, {2, 2, 3})) : body("unit", geom::grid(size, {1, 1, 1}));
+  if (kind == Kind::block || kind == Kind::zoned_block)
+    unit.element = cdem::Element::finite_volume;
+  if (kind == Kind::rigid_block)
+    unit.element = cdem::Element::rigid;
+  if (kind == Kind::zoned_block)
+    unit.zone_size = 0.5;
+  System s(build({unit}));
+  if (kind == Kind::rigid_mesh)
     cdem::set_rigid(s.model, s.state, {0});
   for (const double angle : {0.0, 33.0, 100.0})
     for (const double level : {-3.0, 0.1, 0.45, 0.9, 5.0}) {
