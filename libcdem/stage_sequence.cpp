@@ -42,9 +42,9 @@ CDEM_ARCHIVE(FlowCorner, node, inward, stream)
 CDEM_ARCHIVE(WaterPoint, velocity, acceleration, pressure, surface, pressure_gradient, surface_slope)
 CDEM_ARCHIVE(NodeInWater, place, water, inertia)
 CDEM_ARCHIVE(BaredFace, face, parted)
-CDEM_ARCHIVE(AskedWater, block, first_node, nodes, opened, bared)
+CDEM_ARCHIVE(AskedWater, block, first_node, time, nodes, opened, bared)
 CDEM_ARCHIVE(FlowPatterns::OfFlow, forces, corners, asked)
-CDEM_ARCHIVE(FlowPatterns, flows, water_mass)
+CDEM_ARCHIVE(FlowPatterns, flows)
 CDEM_ARCHIVE(RestartPoint, step, begun, breaks, wall_time, tension_before, shear_before, loop_state,
              previous_force, spring_force, stretch, viscous, one_way, contact_step, strain_step, near, slid,
              flows, procedure_state)

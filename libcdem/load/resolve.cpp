@@ -225,6 +225,25 @@ FaceFan fan_in_water(const Model& model, int block, std::vector<geom::Triangle>&
   return fan;
 }
 
+std::vector<double> volume_around_nodes(const Model& model, const Block& block) {
+  std::vector<double> volume(static_cast<std::size_t>(block.node_end - block.node_begin), 0.0);
+  for (int tet = block.tet_begin; tet < block.tet_end; ++tet)
+    for (const int node : model.tets[tet])
+      volume[node - block.node_begin] += 0.25 * tet_volume(model, tet);
+  return volume;
+}
+
+// The volumes that the water accelerates, and how long the answers of the field hold.
+void find_volumes_in_water(const Model& model, ResolvedFlow& flow) {
+  constexpr double of_passing = 0.05, of_period = 0.02;
+  flow.longest = of_period * flow.water->shortest_period();
+  for (BlockInWater& in_water : flow.in_water) {
+    const Block& block = model.blocks[in_water.asked.block];
+    in_water.volume = volume_around_nodes(model, block);
+    flow.longest = std::min(flow.longest, of_passing * std::sqrt(block.size / flow.water->gravity()));
+  }
+}
+
 void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
   ResolvedFlow resolved;
   resolved.faces = flow_faces(model, flow);
@@ -256,6 +275,7 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
       }
       in_water.faces = std::move(of_block);
     }
+    find_volumes_in_water(model, resolved);
     r.varying.push_back({{}, [](double) { return 1; }});
   } else if (flow.relative) {
     resolved.direction = flow.direction.normalized();
@@ -335,10 +355,9 @@ Amplitude amplitude_of_gravity(const Conditions& conditions) {
 }
 
 void refresh_flows(const Model& model, const State& state, ResolvedConditions& r) {
-  r.water_mass.clear();
   for (ResolvedFlow& flow : r.flows) {
     if (flow.water) {
-      ask_water(model, state, flow, r.water_mass);
+      ask_water(model, state, flow);
       continue;
     }
     std::vector<std::pair<int, geom::Vec3>>& forces = r.varying[flow.load].forces;

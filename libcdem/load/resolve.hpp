@@ -28,12 +28,14 @@ struct FlowCorner {
 struct NodeInWater {
   geom::Vec3 place = geom::Vec3::Zero(); // m, of the node then
   WaterPoint water; // above the surface with the pressure of the water continued: below 0
-  geom::Vec3 inertia = geom::Vec3::Zero(); // N, of accelerated water on the wet volume around it
+  geom::Vec3 inertia =
+      geom::Vec3::Zero(); // m/s2, force of accelerated water per mass that the wet volume displaces
 };
 
 // What is kept of a block from one time when the field is asked to the next.
 struct AskedWater {
   int block = 0, first_node = 0;
+  double time = 0;                    // s, when the field was asked
   std::vector<NodeInWater> nodes;     // of the block
   std::vector<geom::Triangle> opened; // by cracks, outward
   std::vector<BaredFace> bared;       // on other blocks before
@@ -54,6 +56,7 @@ struct BlockInWater {
   AskedWater asked;
   std::vector<int> faces;                        // into ResolvedFlow::faces
   std::vector<FaceFan> fans;                     // of each face of a convex block that is no part of a mesh
+  std::vector<double> volume;                    // m3, around each node, a quarter of each tetrahedron there
   std::size_t face_corners = 0;                  // of these
   std::size_t first_corner = 0, first_force = 0; // among those of the flow (place_water)
 
@@ -81,6 +84,7 @@ struct ResolvedFlow {
   std::shared_ptr<const WaterField> water;
   std::vector<BlockInWater> in_water; // blocks whose faces it meets, ascending
   double drag = 1, added_mass = 0;
+  double longest = 0; // s, between questions to the field
 
   bool relative() const { return velocity || water; }
 };
@@ -119,7 +123,7 @@ struct ResolvedConditions {
   std::vector<std::size_t> boundary_loads; // of these: what enters through quiet boundaries and from columns
   std::vector<ResolvedFlow> flows;
   std::vector<CrackLoad> cracks;
-  std::vector<double> water_mass; // kg, of water that moves with a node (n_nodes); empty without
+  std::vector<double> water_mass; // kg, of water that moves with a node where it is (n_nodes); empty without
   bool has_target = false;
 };
 
