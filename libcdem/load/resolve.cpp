@@ -6,6 +6,7 @@
 #include "libcdem/load/flow.hpp"
 #include "libcdem/load/free_field.hpp"
 #include "libcdem/load/gone_body.hpp"
+#include "libcdem/load/inner_shells.hpp"
 #include "libcdem/load/water_forces.hpp"
 #include "libcdem/model/face_fan.hpp"
 #include "libcdem/state/places.hpp"
@@ -233,20 +234,37 @@ std::vector<double> volume_around_nodes(const Model& model, const Block& block) 
   return volume;
 }
 
-// The volumes that the water accelerates, and how long the answers of the field hold.
-void find_volumes_in_water(const Model& model, ResolvedFlow& flow) {
+// Which bodies the water accelerates as wholes, what their cavities are, and how long the answers of the field hold.
+// shells: of_inner_shells.
+void find_bodies_in_water(const Model& model, const std::vector<int>& shells, ResolvedFlow& flow) {
+  std::vector<int> missing(model.bodies.size(), 0); // outer faces
+  for (const OuterFace& face : model.outer_faces)
+    if (face.boundary < 0 || shells[face.boundary] == 0)
+      ++missing[model.blocks[face.block].body];
+  for (const int face : flow.faces)
+    --missing[model.blocks[model.outer_faces[face].block].body];
+  std::map<int, std::map<int, std::vector<geom::Triangle>>> cavities; // by block and shell
+  for (std::size_t t = 0; t < shells.size(); ++t)
+    if (shells[t] != 0)
+      cavities[model.mesh.boundary[t].block][shells[t]].push_back(model.mesh.boundary[t].nodes);
   constexpr double of_passing = 0.05, of_period = 0.02;
   flow.longest = of_period * flow.water->shortest_period();
   for (BlockInWater& in_water : flow.in_water) {
     const Block& block = model.blocks[in_water.asked.block];
-    in_water.volume = volume_around_nodes(model, block);
+    in_water.inertia = missing[block.body] == 0;
+    if (in_water.inertia)
+      in_water.volume = volume_around_nodes(model, block);
+    if (const auto found = cavities.find(in_water.asked.block); found != cavities.end())
+      for (auto& [shell, triangles] : found->second)
+        in_water.cavities.push_back(std::move(triangles));
     flow.longest = std::min(flow.longest, of_passing * std::sqrt(block.size / flow.water->gravity()));
   }
 }
 
 void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
   ResolvedFlow resolved;
-  resolved.faces = flow_faces(model, flow);
+  const std::vector<int> shells = of_inner_shells(model);
+  resolved.faces = flow_faces(model, flow, shells);
   resolved.normals = smooth_normals(model, resolved.faces);
   resolved.new_faces = flow.new_faces;
   if (flow.new_faces)
@@ -275,7 +293,7 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
       }
       in_water.faces = std::move(of_block);
     }
-    find_volumes_in_water(model, resolved);
+    find_bodies_in_water(model, shells, resolved);
     r.varying.push_back({{}, [](double) { return 1; }});
   } else if (flow.relative) {
     resolved.direction = flow.direction.normalized();

@@ -54,10 +54,12 @@ struct FaceFan {
 
 struct BlockInWater {
   AskedWater asked;
-  std::vector<int> faces;                        // into ResolvedFlow::faces
-  std::vector<FaceFan> fans;                     // of each face of a convex block that is no part of a mesh
-  std::vector<double> volume;                    // m3, around each node, a quarter of each tetrahedron there
-  std::size_t face_corners = 0;                  // of these
+  std::vector<int> faces;    // into ResolvedFlow::faces
+  std::vector<FaceFan> fans; // of each face of a convex block that is no part of a mesh
+  bool inertia = false;      // all faces of its body take part: its volume does
+  std::vector<std::vector<geom::Triangle>> cavities; // that it closes; seen from inside of these
+  std::vector<double> volume;   // m3, around each node, a quarter of each tetrahedron there; with inertia
+  std::size_t face_corners = 0; // of these
   std::size_t first_corner = 0, first_force = 0; // among those of the flow (place_water)
 
   std::size_t corners() const { // with those of faces that have opened

@@ -105,7 +105,7 @@ Eigen::Vector4d wet_part(const std::array<TetCorner, 4>& corners, double volume)
   return 0.25 * volume * (corners[0].weight + corners[1].weight + corners[2].weight + corners[3].weight);
 }
 
-// The volume of a block, as tetrahedra.
+// What a block displaces: its own volume and that of the cavities that it closes, as tetrahedra.
 class DisplacedVolume {
 public:
   DisplacedVolume(const Model& model, const BlockInWater& in_water)
@@ -129,10 +129,37 @@ public:
         for (int i = 0; i < 4; ++i)
           wet[local(tet[i])] += part[i];
       }
+    for (const std::vector<geom::Triangle>& cavity : in_water_.cavities)
+      add_cavity(cavity, height, wet);
   }
 
 private:
   std::size_t local(int node) const { return static_cast<std::size_t>(node - block_.node_begin); }
+
+  // Tetrahedra between the triangles of a shell and the middle of their corners.
+  void add_cavity(const std::vector<geom::Triangle>& cavity, const std::vector<double>& height,
+                  std::vector<double>& wet) const {
+    geom::Vec3 middle = geom::Vec3::Zero();
+    double height_of_middle = 0;
+    const double per_corner = 1 / (3.0 * static_cast<double>(cavity.size()));
+    for (const geom::Triangle& triangle : cavity)
+      for (const int node : triangle) {
+        middle += per_corner * model_.node_position[node];
+        height_of_middle += per_corner * height[local(node)];
+      }
+    for (const geom::Triangle& triangle : cavity) {
+      std::array<TetCorner, 4> corners;
+      std::array<geom::Vec3, 3> x;
+      for (int i = 0; i < 3; ++i) {
+        corners[i] = {Eigen::Vector4d::Unit(i), height[local(triangle[i])]};
+        x[i] = model_.node_position[triangle[i]] - middle;
+      }
+      corners[3] = {Eigen::Vector4d::Unit(3), height_of_middle};
+      const Eigen::Vector4d part = wet_part(corners, -x[0].dot(x[1].cross(x[2])) / 6);
+      for (int i = 0; i < 3; ++i)
+        wet[local(triangle[i])] += part[i] + part[3] / 3;
+    }
+  }
 
   const Model& model_;
   const BlockInWater& in_water_;
@@ -267,7 +294,7 @@ void add_inertia(const Model& model, const ResolvedFlow& flow, const BlockInWate
     force[i] = {first + static_cast<int>(i), geom::Vec3::Zero()};
   const bool accelerated =
       std::any_of(asked.begin(), asked.end(), [](const NodeInWater& n) { return !n.inertia.isZero(0); });
-  if (flow.added_mass == 0 && !accelerated)
+  if (!in_water.inertia || (flow.added_mass == 0 && !accelerated))
     return;
   thread_local std::vector<double> height, wet;
   height.clear();
@@ -312,6 +339,8 @@ void ask_water(const Model& model, const State& state, ResolvedFlow& flow) {
       if (const double height = continued(asked, asked.place).height; height > 0 && height < far_from_surface)
         asked.water.pressure =
             water.pressure_gradient.z() * height; // that of the water below, so far continued
+      if (!in_water.inertia)
+        continue;
       asked.inertia = flow.added_mass * water.acceleration;
       if (!flow.water->has_dynamic_pressure())
         asked.inertia += water.acceleration + flow.water->gravity() * water.surface_slope;

@@ -10,6 +10,8 @@
 //     rho (Du/Dt + g grad(eta))      Froude-Krylov, only where the field's pressure is not that of the motion. The hydrostatic
 //                                    pressure below a surface of slope grad(eta) holds the second term with the opposite sign
 //
+// The inertia terms act where all faces of a body take part: a part of its surface has no volume.
+//
 // The field is asked at the nodes now and then (ask_water): every 20 steps, and before a wave or the body itself has gone far
 // (ResolvedFlow::longest). Between them all is linear. In every step the forces are those on the faces where they stand
 // (place_water), with the pressure and the surface continued by their gradients from where the node was asked, and the volume
@@ -18,7 +20,7 @@
 //
 // The free surface cuts triangles by a line, and the pressure vanishes there, so in still water the buoyancy is that of the
 // cut mesh to rounding. It cuts tetrahedra by a plane likewise. The faces of convex blocks are triangles too, but for those that
-// other blocks cover in part.
+// other blocks cover in part. Cavities that a body closes are part of the volume that it displaces.
 // Weight is gravity's, in air as under water.
 #pragma once
 

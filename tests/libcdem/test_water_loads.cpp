@@ -13,6 +13,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 
 using namespace testing;
 using geom::Vec3;
@@ -402,6 +403,21 @@ TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][
     return wrench(s).force;
   };
   const double volume = 1.5 * 1.5 * 1.5;
+  const Vec3 at_rest = Vec3::Zero(), accelerated(0.4, 0, -0.2); // the body displaces the cavity too
+  CHECK((force(hollow, stream(at_rest, accelerated)) - density * volume * accelerated).norm() <
+        1e-6 * density);
+  for (const double level : {0.6, 0.75, 0.9, 3.0}) {
+    cdem::UniformWater water = still(level);
+    water.velocity = [=](double t) { return Vec3(t * accelerated.x(), 0, 0); };
+    System s(build({meshed("unit", hollow)}));
+    s.conditions.flows = {in_water(cdem::uniform_water(water), 0, 0.67)};
+    s.state.time = 1;
+    const double wet = volume * std::min(1.0, level / 1.5);
+    CHECK(wrench(s).force.x() == Approx(1.67 * density * wet * accelerated.x()).epsilon(1e-6));
+    const cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
+    CHECK(std::accumulate(r.water_mass.begin(), r.water_mass.end(), 0.0) ==
+          Approx(0.67 * density * wet).epsilon(1e-12));
+  }
   CHECK((force(hollow, cdem::uniform_water(still(3))) - volume * weight * Vec3::UnitZ()).norm() <
         1e-9 * weight);
   const Vec3 u(2, 0, 0);
@@ -417,6 +433,35 @@ TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][
   cdem::Simulation given(spec, 1, nullptr);
   flow.on = cdem::Selection::in_box({{0.4, 0.4, 0.4}, {1.1, 1.1, 1.1}});
   CHECK_THROWS_WITH(given.flow(flow), Catch::Contains("cavities that a mesh closes"));
+}
+
+TEST_CASE("accelerated water takes a body once, and no body of which it meets a part", "[water]") {
+  const Vec3 acceleration(2, 0, 0);
+  const auto field = stream(Vec3::Zero(), acceleration);
+  System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))}));
+  s.state.time = 1;
+  const auto force_on = [&](const std::vector<std::vector<std::string>>& calls) {
+    s.conditions.flows.clear();
+    for (const std::vector<std::string>& sides : calls) {
+      cdem::Flow flow = in_water(field, 0);
+      flow.on = cdem::Selection::side(sides[0]);
+      for (std::size_t i = 1; i < sides.size(); ++i)
+        flow.also.push_back(cdem::Selection::side(sides[i]));
+      s.conditions.flows.push_back(flow);
+    }
+    return wrench(s).force;
+  };
+  CHECK((force_on({{"x-", "x+", "y-", "y+", "z-", "z+"}}) - density * acceleration).norm() < 1e-6 * density);
+  CHECK(force_on({{"y-"}}).isZero(0));
+  CHECK(force_on({{"x-"}, {"x+"}}).isZero(0));
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))};
+  cdem::Simulation given(spec, 1, nullptr);
+  cdem::Flow part = in_water(field, 1, 0.5);
+  part.on = cdem::Selection::side("x-");
+  CHECK_THROWS_WITH(given.flow(part), Catch::Contains("name the whole body"));
+  part.added_mass = 0;
+  CHECK_NOTHROW(given.flow(part));
 }
 
 TEST_CASE("water reaches the faces between blocks that no bond holds together", "[water][flow]") {
