@@ -214,6 +214,13 @@ bool Simulation::flow(const Flow& flow) {
     throw geom::InputError("direction", geom::shown(flow.direction),
                            "a direction that meets an outer face of the place (" + flow.places() + ")",
                            "a flow along x+ pushes on the side x-");
+  if (flow.added_mass > 0)
+    for (const BlockInWater& in_water : resolved.flows.back().in_water)
+      if (const Block& block = impl_->model.blocks[in_water.asked.block]; !in_water.inertia)
+        throw geom::InputError(
+            "added_mass", fmt::format("{:g}", flow.added_mass),
+            fmt::format("0 on a part of the faces of body \"{}\"", impl_->model.bodies[block.body].name),
+            "added mass belongs to the volume of a body; name the whole body");
   impl_->conditions = std::move(changed);
   return flows_meet(impl_->model, resolved);
 }
@@ -299,19 +306,7 @@ void Simulation::check_run(double begin, double end) {
     ask(pressure.volume);
   }
   if (c.gravity) {
-    constexpr double rounded = 5e-3;
-    const bool floats = std::any_of(c.flows.begin(), c.flows.end(), [](const Flow& flow) {
-      return flow.water && flow.water->has_pressure();
-    });
-    const Amplitude& amplitude = c.gravity->amplitude;
-    if (amplitude)
-      ask(std::function<void(double)>([&](double time) {
-        if (const double part = amplitude(time); floats && !(std::abs(part - 1) < rounded))
-          throw geom::InputError(
-              "gravity: amplitude", fmt::format("{:g} at t = {:g} s", part, time),
-              "1 beside a flow whose water has a pressure",
-              "the whole buoyancy would act on a part of the weight; let the water begin later");
-      }));
+    ask(amplitude_of_gravity(c));
     ask(c.gravity->turning);
   }
   impl_->warnings.look_for_dry_flows(begin, end);

@@ -43,9 +43,9 @@ CDEM_ARCHIVE(WaterPoint, velocity, acceleration, pressure, surface, pressure_gra
 CDEM_ARCHIVE(NodeInWater, place, water, inertia)
 CDEM_ARCHIVE(BaredFace, face, parted)
 CDEM_ARCHIVE(CrackSide, block, nodes, parted)
-CDEM_ARCHIVE(AskedWater, block, first_node, nodes, cracks, bared)
+CDEM_ARCHIVE(AskedWater, block, first_node, time, nodes, cracks, bared)
 CDEM_ARCHIVE(FlowPatterns::OfFlow, forces, corners, asked)
-CDEM_ARCHIVE(FlowPatterns, flows, water_mass)
+CDEM_ARCHIVE(FlowPatterns, flows)
 CDEM_ARCHIVE(RestartPoint, step, begun, breaks, wall_time, tension_before, shear_before, loop_state,
              previous_force, spring_force, stretch, viscous, one_way, contact_step, strain_step, near, slid,
              flows, procedure_state)

@@ -1,7 +1,6 @@
 #include "libcdem/load/flow.hpp"
 
 #include "libcdem/load/gone_body.hpp"
-#include "libcdem/load/inner_shells.hpp"
 #include "libcdem/load/opened_faces.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/error.hpp"
@@ -101,7 +100,7 @@ std::vector<FlowCorner> flow_corners(const Model& model, const State& state, con
   return std::move(inward.corners);
 }
 
-std::vector<int> flow_faces(const Model& model, const Flow& flow) {
+std::vector<int> flow_faces(const Model& model, const Flow& flow, const std::vector<int>& shells) {
   std::vector<int> faces;
   for (const Selection& on : flow.on) {
     const std::vector<int> here = selected_outer_faces(model, on);
@@ -109,11 +108,10 @@ std::vector<int> flow_faces(const Model& model, const Flow& flow) {
   }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  const std::vector<char> closed_off = of_inner_shells(model);
   faces.erase(std::remove_if(faces.begin(), faces.end(),
                              [&](int f) {
                                const int boundary = model.outer_faces[f].boundary;
-                               return boundary >= 0 && closed_off[boundary] != 0;
+                               return boundary >= 0 && shells[boundary] != 0;
                              }),
               faces.end());
   return faces;

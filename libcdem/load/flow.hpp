@@ -11,8 +11,8 @@ std::vector<std::pair<int, geom::Vec3>> flow_pattern(const Model&, const State&,
 // All its faces, whichever way they look: a third of each face's area along its inward normal at its corners.
 std::vector<FlowCorner> flow_corners(const Model&, const State&, const ResolvedFlow&);
 
-// Outer faces that a flow may meet, ascending: not those of cavities that a mesh closes.
-std::vector<int> flow_faces(const Model&, const Flow&);
+// Outer faces that a flow may meet, ascending: not those of cavities that a mesh closes. shells: of_inner_shells.
+std::vector<int> flow_faces(const Model&, const Flow&, const std::vector<int>& shells);
 
 // Outward, unit, of a face of a convex block where it stands now; a block of small strain hardly turns.
 geom::Vec3 present_normal(const Model&, const State&, const OuterFace&);

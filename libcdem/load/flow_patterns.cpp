@@ -10,6 +10,7 @@ namespace {
 void keep_water(const AskedWater& old, int first_node, AskedWater& block) {
   if (old.block != block.block || old.nodes.size() != block.nodes.size() || first_node != block.first_node)
     return;
+  block.time = old.time;
   block.nodes = old.nodes;
   block.cracks = old.cracks;
   block.bared = old.bared;
@@ -37,7 +38,6 @@ FlowPatterns flow_patterns(const ResolvedConditions& r) {
     } else {
       patterns.flows.push_back({r.varying[flow.load].forces, flow.corners, {}});
     }
-  patterns.water_mass = r.water_mass;
   return patterns;
 }
 
@@ -57,7 +57,6 @@ void take_flow_patterns(FlowPatterns patterns, ResolvedConditions& r) {
     forces = std::move(patterns.flows[i].forces);
     r.flows[i].corners = std::move(patterns.flows[i].corners);
   }
-  r.water_mass = std::move(patterns.water_mass);
 }
 
 void keep_flow_patterns(const FlowPatterns& before, const std::vector<int>& new_node, ResolvedConditions& r) {
@@ -69,10 +68,6 @@ void keep_flow_patterns(const FlowPatterns& before, const std::vector<int>& new_
     if (node >= 0)
       goes_on[node] = 1;
   FlowPatterns all;
-  all.water_mass = found.water_mass;
-  for (std::size_t node = 0; node < new_node.size() && !all.water_mass.empty(); ++node)
-    if (new_node[node] >= 0)
-      all.water_mass[new_node[node]] = before.water_mass.empty() ? 0 : before.water_mass[node];
   for (std::size_t i = 0; i < found.flows.size(); ++i) {
     const FlowPatterns::OfFlow &old = before.flows[i], &now = found.flows[i];
     FlowPatterns::OfFlow flow;

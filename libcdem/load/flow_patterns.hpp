@@ -13,7 +13,6 @@ struct FlowPatterns {
     std::vector<AskedWater> asked; // of a field, whose forces and corners follow from it (place_water)
   };
   std::vector<OfFlow> flows;
-  std::vector<double> water_mass; // kg (n_nodes); empty without
 };
 
 FlowPatterns flow_patterns(const ResolvedConditions&);

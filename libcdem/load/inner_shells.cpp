@@ -29,7 +29,7 @@ public:
       }
   }
 
-  void mark_inner(std::vector<char>& inner) {
+  void mark_inner(std::vector<int>& inner) {
     const auto n = static_cast<int>(parent_.size());
     std::vector<double> volume(n, 0); // six times, by root
     std::vector<char> open(n, 0);
@@ -40,7 +40,7 @@ public:
         open[root(t)] = 1;
     }
     for (int t = 0; t < n; ++t)
-      inner[first_ + t] = volume[root(t)] < 0 && open[root(t)] == 0 ? 1 : 0;
+      inner[first_ + t] = volume[root(t)] < 0 && open[root(t)] == 0 ? first_ + root(t) + 1 : 0;
   }
 
 private:
@@ -73,9 +73,9 @@ private:
 
 } // namespace
 
-std::vector<char> of_inner_shells(const Model& model) {
+std::vector<int> of_inner_shells(const Model& model) {
   const std::vector<BoundaryTriangle>& all = model.mesh.boundary; // by block
-  std::vector<char> inner(all.size(), 0);
+  std::vector<int> inner(all.size(), 0);
   for (auto first = all.begin(); first != all.end();) {
     const auto last = std::find_if(
         first, all.end(), [&](const BoundaryTriangle& triangle) { return triangle.block != first->block; });

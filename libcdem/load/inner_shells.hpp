@@ -5,8 +5,8 @@
 
 namespace cdem {
 
-// Per triangle of MeshData::boundary, 1 where it belongs to a closed shell inside a body: triangles joined at their edges, each
-// edge between two, around a negative volume as their normals look out of the body.
-std::vector<char> of_inner_shells(const Model&);
+// Per triangle of MeshData::boundary, the number of the closed shell inside a body that it belongs to, 0 for none. A shell is
+// triangles joined at their edges, each edge between two, around a negative volume as their normals look out of the body.
+std::vector<int> of_inner_shells(const Model&);
 
 } // namespace cdem

@@ -6,7 +6,9 @@
 #include "libcdem/load/flow.hpp"
 #include "libcdem/load/free_field.hpp"
 #include "libcdem/load/gone_body.hpp"
+#include "libcdem/load/inner_shells.hpp"
 #include "libcdem/load/water_forces.hpp"
+#include "libcdem/model/face_fan.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
@@ -152,9 +154,10 @@ void load(ResolvedConditions& r, Pattern&& pattern, const Amplitude& amplitude) 
 }
 
 // One that turns: a load along each axis.
-void add_gravity(const Model& model, const Gravity& gravity, ResolvedConditions& r) {
+void add_gravity(const Model& model, const Conditions& conditions, ResolvedConditions& r) {
+  const Gravity& gravity = *conditions.gravity;
   if (!gravity.turning) {
-    load(r, gravity_pattern(model, gravity, gravity.acceleration), gravity.amplitude);
+    load(r, gravity_pattern(model, gravity, gravity.acceleration), amplitude_of_gravity(conditions));
     return;
   }
   for (int axis = 0; axis < 3; ++axis)
@@ -209,9 +212,57 @@ std::vector<Met> met_blocks(const Model& model, const Flow& flow, const std::vec
   return met;
 }
 
+FaceFan fan_in_water(const Model& model, int block, std::vector<geom::Triangle>&& triangles) {
+  FaceFan fan;
+  fan.triangles = std::move(triangles);
+  for (geom::Triangle& nodes : fan.triangles) {
+    for (int& node : nodes)
+      node += model.blocks[block].node_begin;
+    const std::vector<geom::Vec3>& x = model.node_position;
+    fan.area += 0.5 * (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]).norm();
+  }
+  return fan;
+}
+
+std::vector<double> volume_around_nodes(const Model& model, const Block& block) {
+  std::vector<double> volume(static_cast<std::size_t>(block.node_end - block.node_begin), 0.0);
+  for (int tet = block.tet_begin; tet < block.tet_end; ++tet)
+    for (const int node : model.tets[tet])
+      volume[node - block.node_begin] += 0.25 * tet_volume(model, tet);
+  return volume;
+}
+
+// Which bodies the water accelerates as wholes, what their cavities are, and how long the answers of the field hold.
+// shells: of_inner_shells.
+void find_bodies_in_water(const Model& model, const std::vector<int>& shells, ResolvedFlow& flow) {
+  std::vector<int> missing(model.bodies.size(), 0); // outer faces
+  for (const OuterFace& face : model.outer_faces)
+    if (face.boundary < 0 || shells[face.boundary] == 0)
+      ++missing[model.blocks[face.block].body];
+  for (const int face : flow.faces)
+    --missing[model.blocks[model.outer_faces[face].block].body];
+  std::map<int, std::map<int, std::vector<geom::Triangle>>> cavities; // by block and shell
+  for (std::size_t t = 0; t < shells.size(); ++t)
+    if (shells[t] != 0)
+      cavities[model.mesh.boundary[t].block][shells[t]].push_back(model.mesh.boundary[t].nodes);
+  constexpr double of_passing = 0.05, of_period = 0.02;
+  flow.longest = of_period * flow.water->shortest_period();
+  for (BlockInWater& in_water : flow.in_water) {
+    const Block& block = model.blocks[in_water.asked.block];
+    in_water.inertia = missing[block.body] == 0;
+    if (in_water.inertia)
+      in_water.volume = volume_around_nodes(model, block);
+    if (const auto found = cavities.find(in_water.asked.block); found != cavities.end())
+      for (auto& [shell, triangles] : found->second)
+        in_water.cavities.push_back(std::move(triangles));
+    flow.longest = std::min(flow.longest, of_passing * std::sqrt(block.size / flow.water->gravity()));
+  }
+}
+
 void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
   ResolvedFlow resolved;
-  resolved.faces = flow_faces(model, flow);
+  const std::vector<int> shells = of_inner_shells(model);
+  resolved.faces = flow_faces(model, flow, shells);
   resolved.normals = smooth_normals(model, resolved.faces);
   resolved.new_faces = flow.new_faces;
   if (flow.new_faces)
@@ -232,12 +283,15 @@ void add_flow(const Model& model, const Flow& flow, ResolvedConditions& r) {
       BlockInWater& in_water = resolved.in_water.emplace_back();
       in_water.asked.block = block;
       in_water.asked.first_node = model.blocks[block].node_begin;
+      for (std::vector<geom::Triangle>& triangles : fans_of(model, block))
+        in_water.fans.push_back(fan_in_water(model, block, std::move(triangles)));
       for (const int i : of_block) {
         const OuterFace& face = model.outer_faces[resolved.faces[i]];
-        in_water.face_corners += face.boundary >= 0 ? 3 : face.node_area.size();
+        in_water.face_corners += face.boundary >= 0 ? 3 : in_water.fans[face.face].corners(face);
       }
       in_water.faces = std::move(of_block);
     }
+    find_bodies_in_water(model, shells, resolved);
     r.varying.push_back({{}, [](double) { return 1; }});
   } else if (flow.relative) {
     resolved.direction = flow.direction.normalized();
@@ -298,11 +352,28 @@ void require_one_gravity(const Conditions& conditions) {
 
 } // namespace
 
+Amplitude amplitude_of_gravity(const Conditions& conditions) {
+  const Amplitude& amplitude = conditions.gravity->amplitude;
+  const bool floats = std::any_of(conditions.flows.begin(), conditions.flows.end(),
+                                  [](const Flow& flow) { return flow.water && flow.water->has_pressure(); });
+  if (!amplitude || !floats)
+    return amplitude;
+  return [amplitude](double time) {
+    constexpr double rounded = 5e-3;
+    const double part = amplitude(time);
+    if (!(std::abs(part - 1) < rounded))
+      throw geom::InputError(
+          "gravity: amplitude", fmt::format("{:g} at t = {:g} s", part, time),
+          "1 beside a flow whose water has a pressure",
+          "the whole buoyancy would act on a part of the weight; let the water begin later");
+    return part;
+  };
+}
+
 void refresh_flows(const Model& model, const State& state, ResolvedConditions& r) {
-  r.water_mass.clear();
   for (ResolvedFlow& flow : r.flows) {
     if (flow.water) {
-      ask_water(model, state, flow, r.water_mass);
+      ask_water(model, state, flow);
       continue;
     }
     std::vector<std::pair<int, geom::Vec3>>& forces = r.varying[flow.load].forces;
@@ -345,7 +416,7 @@ ResolvedConditions resolve(const Model& model, const State& state, const Conditi
   for (const PointForce& force : conditions.forces)
     load(r, force_pattern(model, force), force.amplitude);
   if (conditions.gravity)
-    add_gravity(model, *conditions.gravity, r);
+    add_gravity(model, conditions, r);
   for (const Flow& flow : conditions.flows)
     if (!is_gone(model, flow))
       add_flow(model, flow, r);

@@ -28,27 +28,44 @@ struct FlowCorner {
 struct NodeInWater {
   geom::Vec3 place = geom::Vec3::Zero(); // m, of the node then
   WaterPoint water; // above the surface with the pressure of the water continued: below 0
-  geom::Vec3 inertia = geom::Vec3::Zero(); // N, of accelerated water on the wet volume around it
+  geom::Vec3 inertia =
+      geom::Vec3::Zero(); // m/s2, force of accelerated water per mass that the wet volume displaces
 };
 
 // What is kept of a block from one time when the field is asked to the next.
 struct AskedWater {
   int block = 0, first_node = 0;
+  double time = 0;                // s, when the field was asked
   std::vector<NodeInWater> nodes; // of the block
   std::vector<CrackSide> cracks;
   std::vector<BaredFace> bared; // on other blocks before
 };
 
+// A face of a convex block, whole.
+struct FaceFan {
+  std::vector<geom::Triangle> triangles; // nodes
+  double area = 0;                       // m2
+
+  bool is_whole(const OuterFace& face) const { return face.area > (1 - 1e-9) * area; }
+  std::size_t corners(const OuterFace& face) const {
+    return is_whole(face) ? 3 * triangles.size() : face.node_area.size();
+  }
+};
+
 struct BlockInWater {
   AskedWater asked;
-  std::vector<int> faces;                        // into ResolvedFlow::faces
-  std::size_t face_corners = 0;                  // of these
+  std::vector<int> faces;    // into ResolvedFlow::faces
+  std::vector<FaceFan> fans; // of each face of a convex block that is no part of a mesh
+  bool inertia = false;      // all faces of its body take part: its volume does
+  std::vector<std::vector<geom::Triangle>> cavities; // that it closes; seen from inside of these
+  std::vector<double> volume;   // m3, around each node, a quarter of each tetrahedron there; with inertia
+  std::size_t face_corners = 0; // of these
   std::size_t first_corner = 0, first_force = 0; // among those of the flow (place_water)
 
   std::size_t corners() const { // with those of faces that have opened
     std::size_t sum = face_corners + 3 * asked.cracks.size();
     for (const BaredFace& bared : asked.bared)
-      sum += bared.face.node_area.size();
+      sum += fans[bared.face.face].corners(bared.face);
     return sum;
   }
 };
@@ -69,6 +86,7 @@ struct ResolvedFlow {
   std::shared_ptr<const WaterField> water;
   std::vector<BlockInWater> in_water; // blocks whose faces it meets, ascending
   double drag = 1, added_mass = 0;
+  double longest = 0; // s, between questions to the field
 
   bool relative() const { return velocity || water; }
 };
@@ -107,7 +125,7 @@ struct ResolvedConditions {
   std::vector<std::size_t> boundary_loads; // of these: what enters through quiet boundaries and from columns
   std::vector<ResolvedFlow> flows;
   std::vector<CrackLoad> cracks;
-  std::vector<double> water_mass; // kg, of water that moves with a node (n_nodes); empty without
+  std::vector<double> water_mass; // kg, of water that moves with a node where it is (n_nodes); empty without
   bool has_target = false;
 };
 
@@ -130,6 +148,9 @@ void each_node(const ResolvedConditions& r, Range nodes, const Free& free, const
 // A rigid body is held as a whole where a fix holds any of its nodes. Throws geom::InputError when a condition selects
 // nothing, and when a rigid body is held in part.
 ResolvedConditions resolve(const Model&, const State&, const Conditions&);
+
+// The factor of gravity at a time. Throws geom::InputError where it is not 1 beside water whose pressure carries bodies. Empty: 1.
+Amplitude amplitude_of_gravity(const Conditions&);
 
 // The patterns of flows for where the faces are now; fields of water are asked again.
 void refresh_flows(const Model&, const State&, ResolvedConditions&);

@@ -105,28 +105,66 @@ Eigen::Vector4d wet_part(const std::array<TetCorner, 4>& corners, double volume)
   return 0.25 * volume * (corners[0].weight + corners[1].weight + corners[2].weight + corners[3].weight);
 }
 
-// Share of the volume around each node of a block that is under water.
-std::vector<double> wet_shares(const Model& model, const Block& block, const std::vector<double>& height) {
-  std::vector<double> share(height.size());
-  std::transform(height.begin(), height.end(), share.begin(), [](double h) { return h < 0 ? 1.0 : 0.0; });
-  if (std::count(share.begin(), share.end(), share[0]) == static_cast<std::ptrdiff_t>(share.size()))
-    return share;
-  std::vector<double> wet(height.size()), whole(height.size());
-  for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
-    std::array<TetCorner, 4> corners;
-    for (int i = 0; i < 4; ++i)
-      corners[i] = {Eigen::Vector4d::Unit(i), height[model.tets[tet][i] - block.node_begin]};
-    const double volume = tet_volume(model, tet);
-    const Eigen::Vector4d part = wet_part(corners, volume);
-    for (int i = 0; i < 4; ++i) {
-      wet[model.tets[tet][i] - block.node_begin] += part[i];
-      whole[model.tets[tet][i] - block.node_begin] += 0.25 * volume;
+// What a block displaces: its own volume and that of the cavities that it closes, as tetrahedra.
+class DisplacedVolume {
+public:
+  DisplacedVolume(const Model& model, const BlockInWater& in_water)
+      : model_(model), in_water_(in_water), block_(model.blocks[in_water.asked.block]) {}
+
+  // m3, by node: the part of it around each that is under water. height: m, of the nodes over the surface.
+  void find_wet(const std::vector<double>& height, std::vector<double>& wet) const {
+    const auto under = std::count_if(height.begin(), height.end(), [](double h) { return h < 0; });
+    wet.assign(height.size(), 0.0);
+    if (under == 0)
+      return;
+    if (under == static_cast<std::ptrdiff_t>(height.size())) // the same bits as the sum below
+      wet = in_water_.volume;
+    else
+      for (int t = block_.tet_begin; t < block_.tet_end; ++t) {
+        const geom::Tet& tet = model_.tets[t];
+        std::array<TetCorner, 4> corners;
+        for (int i = 0; i < 4; ++i)
+          corners[i] = {Eigen::Vector4d::Unit(i), height[local(tet[i])]};
+        const Eigen::Vector4d part = wet_part(corners, tet_volume(model_, t));
+        for (int i = 0; i < 4; ++i)
+          wet[local(tet[i])] += part[i];
+      }
+    for (const std::vector<geom::Triangle>& cavity : in_water_.cavities)
+      add_cavity(cavity, height, wet);
+  }
+
+private:
+  std::size_t local(int node) const { return static_cast<std::size_t>(node - block_.node_begin); }
+
+  // Tetrahedra between the triangles of a shell and the middle of their corners.
+  void add_cavity(const std::vector<geom::Triangle>& cavity, const std::vector<double>& height,
+                  std::vector<double>& wet) const {
+    geom::Vec3 middle = geom::Vec3::Zero();
+    double height_of_middle = 0;
+    const double per_corner = 1 / (3.0 * static_cast<double>(cavity.size()));
+    for (const geom::Triangle& triangle : cavity)
+      for (const int node : triangle) {
+        middle += per_corner * model_.node_position[node];
+        height_of_middle += per_corner * height[local(node)];
+      }
+    for (const geom::Triangle& triangle : cavity) {
+      std::array<TetCorner, 4> corners;
+      std::array<geom::Vec3, 3> x;
+      for (int i = 0; i < 3; ++i) {
+        corners[i] = {Eigen::Vector4d::Unit(i), height[local(triangle[i])]};
+        x[i] = model_.node_position[triangle[i]] - middle;
+      }
+      corners[3] = {Eigen::Vector4d::Unit(3), height_of_middle};
+      const Eigen::Vector4d part = wet_part(corners, -x[0].dot(x[1].cross(x[2])) / 6);
+      for (int i = 0; i < 3; ++i)
+        wet[local(triangle[i])] += part[i] + part[3] / 3;
     }
   }
-  for (std::size_t i = 0; i < share.size(); ++i)
-    share[i] = whole[i] > 0 ? wet[i] / whole[i] : share[i];
-  return share;
-}
+
+  const Model& model_;
+  const BlockInWater& in_water_;
+  const Block& block_;
+};
 
 // Faces of a block that were not outside when the model was made.
 void find_opened(const Model& model, const State& state, ResolvedFlow& flow) {
@@ -148,18 +186,11 @@ void find_opened(const Model& model, const State& state, ResolvedFlow& flow) {
 class ForcesOnBlock {
 public:
   using Force = std::pair<int, geom::Vec3>;
-  // here: memory for the nodes. corner: null without drag.
-  ForcesOnBlock(const Model& model, const State& state, const AskedWater& asked, std::vector<WaterHere>& here,
-                FlowCorner* corner, Force* force)
-      : model_(model), state_(state), asked_(asked), first_(asked.first_node), corner_(corner), force_(force),
-        here_(here) {
-    here_.clear();
-    for (std::size_t i = 0; i < asked.nodes.size(); ++i) {
-      const int node = first_ + static_cast<int>(i);
-      here_.push_back(continued(asked.nodes[i], place_of(model, state, node)));
-      force_[i] = {node, asked.nodes[i].inertia};
-    }
-  }
+  // here: of the nodes. corner: null without drag. force: to which those on faces are added.
+  ForcesOnBlock(const Model& model, const State& state, const BlockInWater& in_water,
+                const std::vector<WaterHere>& here, FlowCorner* corner, Force* force)
+      : model_(model), state_(state), in_water_(in_water), first_(in_water.asked.first_node), corner_(corner),
+        force_(force), here_(here) {}
 
   // drag: a stream reaches it. smooth: null for the triangle's own normal.
   void triangle(const geom::Triangle& nodes, const CornerNormals* smooth, bool drag = true) {
@@ -181,15 +212,53 @@ public:
   }
 
   void block_face(const OuterFace& face, bool drag = true) {
-    const geom::Vec3 normal = present_normal(model_, state_, face);
-    for (const auto& [node, area] : face.node_area) {
-      const double wet = at(node).wet() ? area : 0;
-      force_[node - first_].second -= at(node).pressure * wet * normal;
-      add(node, drag ? geom::Vec3(-wet * normal) : geom::Vec3(geom::Vec3::Zero()));
-    }
+    const FaceFan& fan = in_water_.fans[face.face];
+    if (!fan.is_whole(face))
+      return part_of_face(face, fan, drag);
+    for (const geom::Triangle& nodes : fan.triangles)
+      triangle(nodes, nullptr, drag);
   }
 
 private:
+  // Others cover the rest. What is known of the part is the integral a of the shape function of each node. Under water its
+  // pressure is a p, exact in sum; where the surface cuts the face the node takes the share of what acts on the whole one.
+  void part_of_face(const OuterFace& face, const FaceFan& fan, bool drag) {
+    struct Whole {
+      double area = 0, wet = 0, pressure = 0, continued = 0; // m2, m2, N, N; continued: above the surface too
+    };
+    const auto& parts = face.node_area; // of all nodes of the face, ascending
+    thread_local std::vector<Whole> whole;
+    whole.assign(parts.size(), {});
+    const auto of = [&](int node) -> Whole& {
+      const auto found = std::lower_bound(parts.begin(), parts.end(), node,
+                                          [](const auto& part, int n) { return part.first < n; });
+      return whole[found - parts.begin()];
+    };
+    for (const geom::Triangle& nodes : fan.triangles) {
+      const std::array<const WaterHere*, 3> corner{&at(nodes[0]), &at(nodes[1]), &at(nodes[2])};
+      const auto& x = model_.node_position;
+      const double area = 0.5 * (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]).norm(),
+                   sum = corner[0]->pressure + corner[1]->pressure + corner[2]->pressure;
+      const WetTriangle wet(corner, area);
+      for (int i = 0; i < 3; ++i) {
+        Whole& of_node = of(nodes[i]);
+        of_node.area += area / 3;
+        of_node.wet += wet.area[i];
+        of_node.pressure += wet.pressure[i];
+        of_node.continued += area / 12 * (sum + corner[i]->pressure);
+      }
+    }
+    const geom::Vec3 normal = present_normal(model_, state_, face);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto& [node, area] = parts[i];
+      const double share = area / whole[i].area, under = whole[i].wet / whole[i].area;
+      const double pressure =
+          share * whole[i].pressure + under * (area * at(node).pressure - share * whole[i].continued);
+      force_[node - first_].second -= pressure * normal;
+      add(node, drag ? geom::Vec3(-under * area * normal) : geom::Vec3(geom::Vec3::Zero()));
+    }
+  }
+
   const WaterHere& at(int node) const { return here_[node - first_]; }
   void add_dry(const geom::Triangle& nodes) {
     for (const int node : nodes)
@@ -197,55 +266,93 @@ private:
   }
   void add(int node, const geom::Vec3& inward) {
     if (corner_)
-      *corner_++ = {node, inward, asked_.nodes[node - first_].water.velocity};
+      *corner_++ = {node, inward, in_water_.asked.nodes[node - first_].water.velocity};
   }
 
   const Model& model_;
   const State& state_;
-  const AskedWater& asked_;
+  const BlockInWater& in_water_;
   int first_;
   FlowCorner* corner_;
   Force* force_;
-  std::vector<WaterHere>& here_;
+  const std::vector<WaterHere>& here_;
 };
 
-} // namespace
+// Forces on the nodes, and with those of the volume under water the mass that moves with them. force: null where not wanted.
+void add_inertia(const Model& model, const ResolvedFlow& flow, const BlockInWater& in_water,
+                 const std::vector<WaterHere>& here, std::pair<int, geom::Vec3>* force,
+                 std::vector<double>& water_mass) {
+  const std::vector<NodeInWater>& asked = in_water.asked.nodes;
+  const int first = in_water.asked.first_node;
+  for (std::size_t i = 0; force && i < asked.size(); ++i)
+    force[i] = {first + static_cast<int>(i), geom::Vec3::Zero()};
+  const bool accelerated =
+      std::any_of(asked.begin(), asked.end(), [](const NodeInWater& n) { return !n.inertia.isZero(0); });
+  if (!in_water.inertia || (flow.added_mass == 0 && !accelerated))
+    return;
+  thread_local std::vector<double> height, wet;
+  height.clear();
+  for (const WaterHere& water : here)
+    height.push_back(water.height);
+  DisplacedVolume(model, in_water).find_wet(height, wet);
+  for (std::size_t i = 0; i < wet.size(); ++i) {
+    const double mass = flow.water_density * wet[i];
+    if (force)
+      force[i].second = mass * asked[i].inertia;
+    if (flow.added_mass > 0)
+      water_mass[first + i] += flow.added_mass * mass;
+  }
+}
 
-void ask_water(const Model& model, const State& state, ResolvedFlow& flow, std::vector<double>& water_mass) {
-  find_opened(model, state, flow);
-  if (flow.added_mass > 0)
-    water_mass.resize(model.node_position.size(), 0.0);
-  std::vector<double> height;
-  for (BlockInWater& in_water : flow.in_water) {
-    std::vector<NodeInWater>& nodes = in_water.asked.nodes;
-    const Block& block = model.blocks[in_water.asked.block];
-    nodes.clear();
-    height.clear();
-    for (int node = block.node_begin; node < block.node_end; ++node) {
-      NodeInWater& asked = nodes.emplace_back();
-      asked.place = place_of(model, state, node);
-      asked.water = flow.water->at(asked.place, state.time);
-      height.push_back(continued(asked, asked.place).height);
-      if (height.back() > 0 &&
-          height.back() < far_from_surface) // the pressure of the water below, so far continued
-        asked.water.pressure = asked.water.pressure_gradient.z() * height.back();
-    }
-    const std::vector<double> wet = wet_shares(model, block, height);
-    for (std::size_t i = 0; i < wet.size(); ++i) {
-      const int node = block.node_begin + static_cast<int>(i);
-      const WaterPoint& water = nodes[i].water;
-      const double mass = wet[i] > 0 ? flow.water_density * wet[i] * node_volume(model, node) : 0;
-      geom::Vec3 acceleration = flow.added_mass * water.acceleration;
-      if (!flow.water->has_dynamic_pressure())
-        acceleration += water.acceleration + flow.water->gravity() * water.surface_slope;
-      nodes[i].inertia = mass > 0 ? geom::Vec3(mass * acceleration) : geom::Vec3::Zero();
-      if (flow.added_mass > 0)
-        water_mass[node] += flow.added_mass * mass;
+void clear_water_mass(const Model& model, ResolvedConditions& r) {
+  for (const ResolvedFlow& flow : r.flows) {
+    if (!flow.water || flow.added_mass == 0)
+      continue;
+    r.water_mass.resize(model.node_position.size(), 0.0);
+    for (const BlockInWater& in_water : flow.in_water) {
+      const Block& block = model.blocks[in_water.asked.block];
+      std::fill(r.water_mass.begin() + block.node_begin, r.water_mass.begin() + block.node_end, 0.0);
     }
   }
 }
 
+} // namespace
+
+void ask_water(const Model& model, const State& state, ResolvedFlow& flow) {
+  find_opened(model, state, flow);
+  for (BlockInWater& in_water : flow.in_water) {
+    std::vector<NodeInWater>& nodes = in_water.asked.nodes;
+    const Block& block = model.blocks[in_water.asked.block];
+    in_water.asked.time = state.time;
+    nodes.clear();
+    for (int node = block.node_begin; node < block.node_end; ++node) {
+      NodeInWater& asked = nodes.emplace_back();
+      asked.place = place_of(model, state, node);
+      asked.water = flow.water->at(asked.place, state.time);
+      const WaterPoint& water = asked.water;
+      if (const double height = continued(asked, asked.place).height; height > 0 && height < far_from_surface)
+        asked.water.pressure =
+            water.pressure_gradient.z() * height; // that of the water below, so far continued
+      if (!in_water.inertia)
+        continue;
+      asked.inertia = flow.added_mass * water.acceleration;
+      if (!flow.water->has_dynamic_pressure())
+        asked.inertia += water.acceleration + flow.water->gravity() * water.surface_slope;
+    }
+  }
+}
+
+bool water_is_old(const ResolvedConditions& r, double time) {
+  return std::any_of(r.flows.begin(), r.flows.end(), [&](const ResolvedFlow& flow) {
+    return flow.water &&
+           std::any_of(flow.in_water.begin(), flow.in_water.end(), [&](const BlockInWater& in_water) {
+             return time - in_water.asked.time >= flow.longest;
+           });
+  });
+}
+
 void place_water(const Model& model, const State& state, Range nodes, int threads, ResolvedConditions& r) {
+  clear_water_mass(model, r);
   for (ResolvedFlow& flow : r.flows) {
     if (!flow.water)
       continue;
@@ -267,14 +374,23 @@ void place_water(const Model& model, const State& state, Range nodes, int thread
       const Block& block = model.blocks[asked.block];
       FlowCorner* const corner = flow.corners.data() + in_water.first_corner;
       std::pair<int, geom::Vec3>* const force = forces.data() + corners + in_water.first_force;
-      if (block.node_begin >= nodes.end || block.node_end <= nodes.begin) {
+      const bool away = block.node_begin >= nodes.end || block.node_end <= nodes.begin;
+      if (away) {
         std::fill_n(corner, drag ? in_water.corners() : 0,
                     FlowCorner{asked.first_node, geom::Vec3::Zero(), geom::Vec3::Zero()});
         std::fill_n(force, asked.nodes.size(), std::pair(asked.first_node, geom::Vec3(geom::Vec3::Zero())));
-        return;
       }
+      if (away && block.rigid < 0) // a rigid body may be placed here all the same
+        return;
       thread_local std::vector<WaterHere> here;
-      ForcesOnBlock on_block(model, state, asked, here, drag ? corner : nullptr, force);
+      here.clear();
+      for (std::size_t i = 0; i < asked.nodes.size(); ++i)
+        here.push_back(
+            continued(asked.nodes[i], place_of(model, state, asked.first_node + static_cast<int>(i))));
+      add_inertia(model, flow, in_water, here, away ? nullptr : force, r.water_mass);
+      if (away)
+        return;
+      ForcesOnBlock on_block(model, state, in_water, here, drag ? corner : nullptr, force);
       for (const int i : in_water.faces) {
         const OuterFace& face = model.outer_faces[flow.faces[i]];
         if (face.boundary >= 0)

@@ -11,12 +11,17 @@
 //     rho (Du/Dt + g grad(eta))      Froude-Krylov, only where the field's pressure is not that of the motion. The hydrostatic
 //                                    pressure below a surface of slope grad(eta) holds the second term with the opposite sign
 //
-// The field is asked at the nodes now and then (ask_water); between them all is linear. In every step the forces are those
-// on the faces where they stand (place_water), with the pressure and the surface continued by their gradients from where the
-// node was asked. Forces that stayed with the nodes of a body that moves would do work in a cycle: still water would drive it.
+// The inertia terms act where all faces of a body take part: a part of its surface has no volume.
+//
+// The field is asked at the nodes now and then (ask_water): every 20 steps, and before a wave or the body itself has gone far
+// (ResolvedFlow::longest). Between them all is linear. In every step the forces are those on the faces where they stand
+// (place_water), with the pressure and the surface continued by their gradients from where the node was asked, and the volume
+// is that under this surface. Forces that stayed with the nodes of a body that moves would do work in a cycle: still water would
+// drive it.
 //
 // The free surface cuts triangles by a line, and the pressure vanishes there, so in still water the buoyancy is that of the
-// cut mesh to rounding. It cuts tetrahedra by a plane likewise. Faces of convex blocks of small strain are cut at nodes only.
+// cut mesh to rounding. It cuts tetrahedra by a plane likewise. The faces of convex blocks are triangles too, but for those that
+// other blocks cover in part. Cavities that a body closes are part of the volume that it displaces.
 // Weight is gravity's, in air as under water.
 #pragma once
 
@@ -25,11 +30,13 @@
 namespace cdem {
 
 // Asks the field at the nodes of the flow's blocks where they stand, and finds which faces cracks have opened there.
-// water_mass: grows to n_nodes where there is added mass.
-void ask_water(const Model&, const State&, ResolvedFlow&, std::vector<double>& water_mass);
+void ask_water(const Model&, const State&, ResolvedFlow&);
 
-// Corners and forces of the flows of fields for where the faces stand now. nodes: those whose forces are wanted; others of the
-// same blocks may get any.
+// A field was asked too long ago.
+bool water_is_old(const ResolvedConditions&, double time);
+
+// Corners and forces of the flows of fields for where the faces stand now, and the water that moves with the nodes. nodes: those
+// that are wanted, beside those of rigid bodies; others of the same blocks may get any.
 void place_water(const Model&, const State&, Range nodes, int threads, ResolvedConditions&);
 
 } // namespace cdem

@@ -20,4 +20,14 @@ std::vector<geom::Triangle> fan_of(const Model& model, int block, int face) {
   return fan;
 }
 
+std::vector<std::vector<geom::Triangle>> fans_of(const Model& model, int block) {
+  const Block& b = model.blocks[block];
+  if (!b.meshed)
+    return geom::star_mesh(b.shape).fans;
+  std::vector<std::vector<geom::Triangle>> fans;
+  for (std::size_t face = 0; face < b.shape.faces.size(); ++face)
+    fans.push_back(fan_of(model, block, static_cast<int>(face)));
+  return fans;
+}
+
 } // namespace cdem

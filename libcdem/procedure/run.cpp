@@ -3,6 +3,7 @@
 #include "libcdem/bond/contact_damping.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/response/contact_bounds.hpp"
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/integrate/move_columns.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
@@ -10,6 +11,7 @@
 #include "libcdem/integrate/viscous_forces.hpp"
 #include "libcdem/procedure/scaled_stage.hpp"
 #include "libcdem/ranks/ranks.hpp"
+#include "libcdem/state/places.hpp"
 #include "libcdem/step/step.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -17,6 +19,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 namespace cdem {
 namespace {
@@ -175,7 +178,7 @@ public:
     stage_.sample_start();
     if (scaled_.on())
       stage_.scale_masses = [this] { scaled_.scale(); };
-    else
+    else if (state_.moving_mass.empty()) // otherwise it goes on
       stage_.carry_water(stage_.work.resolved.water_mass);
   }
 
@@ -237,6 +240,9 @@ public:
   }
 
   void move(Range range, const Node* force, NodeSums& sums) override {
+    carry_water(range, [&](std::int64_t i, double more) {
+      sums.external += 0.5 * more * vec(state_.velocity[i]).squaredNorm();
+    });
     const auto nodes = [&](Range part) {
       MovingNodes moving = moving_nodes(state_, stage_.work.acting(), moving_mass(model_, state_), part,
                                         force + (part.begin - range.begin));
@@ -246,10 +252,14 @@ public:
     step_nodes_and_held(stage_.work.resolved, range, nodes, stepping_, sums);
   }
   void move_rigid(int rigid, NodeSums& sums) override {
+    double more = 0; // kg
+    carry_water(nodes_of(rigid), [&](std::int64_t, double of_node) { more += of_node; });
+    sums.external += 0.5 * more * cdem::vec(state_.rigid[rigid].velocity).squaredNorm();
     stage_.work.rigid_angle[rigid] =
         cdem::move_rigid(model_, state_, stage_.work.acting(), rigid, stepping_, sums);
   }
   void place_rigid(int rigid) override {
+    carry_water(nodes_of(rigid), [](std::int64_t, double) {}); // another rank may have moved it
     cdem::place_rigid(model_, state_, rigid, stage_.work.rigid_angle[rigid], stepping_.time_step);
   }
 
@@ -266,6 +276,20 @@ public:
   }
 
 private:
+  // The water that moves with nodes now takes the place of what did: add(node, kg more).
+  template <class Add>
+  void carry_water(Range nodes, const Add& add) {
+    const std::vector<double>& water = stage_.work.resolved.water_mass;
+    for (std::int64_t i = nodes.begin; i < nodes.end && !water.empty(); ++i) {
+      const double mass = model_.node_mass[i] + water[i];
+      add(i, mass - std::exchange(state_.moving_mass[i], mass));
+    }
+  }
+  Range nodes_of(int rigid) const {
+    const Block& block = model_.blocks[model_.rigid[rigid].block];
+    return {block.node_begin, block.node_end};
+  }
+
   void ask() {
     if (options_.callback && options_.callback_every > 0)
       options_.callback();

@@ -205,7 +205,11 @@ void SharedState::share_faces(State& state) {
 }
 
 void SharedState::share_nodes(State& state) {
-  moved_.share({Links::array(state.displacement), Links::array(state.velocity)});
+  if (state.moving_mass.empty())
+    moved_.share({Links::array(state.displacement), Links::array(state.velocity)});
+  else
+    moved_.share(
+        {Links::array(state.displacement), Links::array(state.velocity), Links::array(state.moving_mass)});
   stress_.share({Links::array(state.stress)});
 }
 

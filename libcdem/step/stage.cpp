@@ -26,8 +26,8 @@ namespace {
 
 // Steps between questions whether to stop, to write a checkpoint, to show the progress.
 constexpr std::int64_t poll_every = 16;
-// Steps between looks at which faces a flow meets: they turn by next to nothing in between. And between those at which a
-// field of water is asked, whose forces follow the faces in every step.
+// Steps between looks at which faces a flow meets: they turn by next to nothing in between. And at most between those at which
+// a field of water is asked, whose forces follow the faces in every step.
 constexpr std::int64_t flow_every = 100, water_every = 20;
 static_assert(watch_every % flow_every == 0 && watch_every % water_every == 0,
               "a stage that goes on looks anew where it did when it was left");
@@ -302,11 +302,10 @@ void Stage::watch() {
   release_parted_blocks();
   if (is_due(watch_every))
     look_over();
-  if (!work.resolved.flows.empty() && is_due(in_water(work.resolved) ? water_every : flow_every)) {
+  if (!work.resolved.flows.empty() && (is_due(in_water(work.resolved) ? water_every : flow_every) ||
+                                       water_is_old(work.resolved, context_.state.time))) {
     see_whole();
     refresh_flows(context_.model, context_.state, work.resolved);
-    if (in_real_time && !scale_masses)
-      carry_water(work.resolved.water_mass);
     update_external(work.resolved, context_.state.time, moving());
   }
   if (context_.log.due(context_.state.step))

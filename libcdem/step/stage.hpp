@@ -83,7 +83,8 @@ public:
   // To the state that was kept last, after an error.
   void go_back();
   // In real time the water that moves with the nodes (load/water_forces.hpp) adds to their inertia; the kinetic energy
-  // that changes with it is work of the water. Not beside scaled masses. water: kg (n_nodes); empty: none any more.
+  // that changes with it is work of the water. Not beside scaled masses. water: kg (n_nodes); empty: none any more. At both ends
+  // of a run: in between the steps take the water where it is.
   void carry_water(const std::vector<double>& water);
   StageResult finish(); // what results read, last history row and progress
 

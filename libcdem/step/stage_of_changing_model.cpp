@@ -120,8 +120,6 @@ void Stage::change_nodes(Freed freed) {
     take_tet_pairs(model, state, std::move(pairs), work.contact);
   };
   start_contacts(false);
-  if (in_real_time && !scale_masses)
-    carry_water(work.resolved.water_mass);
   place_water();
   update_external(work.resolved, state.time, moving());
   if (std::find(freed.anew.begin(), freed.anew.end(), 1) == freed.anew.end())

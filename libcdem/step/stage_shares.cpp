@@ -50,6 +50,18 @@ void add_nodes_in_water(const Model& model, const ResolvedFlow& flow, std::vecto
   std::vector<char> meets(model.blocks.size(), 0);
   for (const BlockInWater& in_water : flow.in_water)
     meets[in_water.asked.block] = 1;
+  for (const BlockInWater& in_water : flow.in_water) { // wet volumes around nodes
+    const Block& block = model.blocks[in_water.asked.block];
+    for (int t = block.tet_begin; in_water.inertia && t < block.tet_end; ++t) {
+      const geom::Tet& tet = model.tets[t];
+      add({tet[0], tet[1], tet[2]});
+      add({tet[0], tet[1], tet[3]});
+      add({tet[2], tet[3], tet[0]});
+    }
+    for (const std::vector<geom::Triangle>& cavity : in_water.cavities)
+      for (const geom::Triangle& corners : cavity)
+        nodes.insert(nodes.end(), corners.begin(), corners.end());
+  }
   for (const int f : flow.faces)
     if (const int boundary = model.outer_faces[f].boundary; boundary >= 0)
       add(model.mesh.boundary[boundary].nodes);

@@ -41,6 +41,8 @@ public:
     return FlatBed{given_.level - given_.depth, given_.level};
   }
 
+  double shortest_period() const override { return given_.peak_period / 3; }
+
   struct Component {
     double amplitude = 0, omega = 0, wave_number = 0, phase = 0; // m, rad/s, 1/m, rad
   };

@@ -68,6 +68,8 @@ struct WaveField final : WaterField {
   bool has_pressure() const override { return true; }
   std::optional<FlatBed> flat_bed() const override { return FlatBed{given.level - given.depth, given.level}; }
 
+  double shortest_period() const override { return period(); }
+
   double period() const; // s
   WaveGiven given;
   SteadyWave wave;

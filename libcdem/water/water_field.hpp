@@ -42,6 +42,8 @@ public:
   virtual bool has_dynamic_pressure() const = 0;
   virtual bool has_pressure() const = 0; // false: no buoyancy comes from it
   virtual std::optional<FlatBed> flat_bed() const { return {}; }
+  // s, of the shortest wave; infinite where no period is known.
+  virtual double shortest_period() const { return std::numeric_limits<double>::infinity(); }
 };
 
 } // namespace cdem

@@ -12,6 +12,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 
 using namespace testing;
 using geom::Vec3;
@@ -43,9 +44,21 @@ geom::TetMesh shaped(Shape shape, int n) {
 
 TEST_CASE("still water carries a body as Archimedes said, at any attitude and draught", "[water]") {
   const Vec3 size(1, 0.6, 1.7);
-  const bool rigid = GENERATE(false, true);
-  System s(build({meshed("unit", geom::box_mesh(size, {2, 2, 3}))}));
-  if (rigid)
+  enum class Kind { mesh, rigid_mesh, block, rigid_block, block_of_small_strain, zoned_block };
+  const Kind kind = GENERATE(Kind::mesh, Kind::rigid_mesh, Kind::block, Kind::rigid_block,
+                             Kind::block_of_small_strain, Kind::zoned_block);
+  CAPTURE(static_cast<int>(kind));
+  const bool is_mesh = kind == Kind::mesh || kind == Kind::rigid_mesh;
+  cdem::BodySpec unit =
+      is_mesh ? meshed("unit", geom::box_mesh(size, {2, 2, 3})) : body("unit", geom::grid(size, {1, 1, 1}));
+  if (kind == Kind::block || kind == Kind::zoned_block)
+    unit.element = cdem::Element::finite_volume;
+  if (kind == Kind::rigid_block)
+    unit.element = cdem::Element::rigid;
+  if (kind == Kind::zoned_block)
+    unit.zone_size = 0.5;
+  System s(build({unit}));
+  if (kind == Kind::rigid_mesh)
     cdem::set_rigid(s.model, s.state, {0});
   for (const double angle : {0.0, 33.0, 100.0})
     for (const double level : {-3.0, 0.1, 0.45, 0.9, 5.0}) {
@@ -216,9 +229,65 @@ TEST_CASE("a body that floats heaves with the period of its water line, and no h
   options.callback_every = 1;
   s.run(options);
   CHECK(highest_first == Approx(offset).epsilon(ca > 0 ? 0.1 : 0.01));
-  CHECK(highest_last < (ca > 0 ? 1.02 : 1.0001) * highest_first);
+  CHECK(highest_last < 1.0001 * highest_first);
   if (ca == 0) // after whole periods it is where it began
     CHECK(std::abs(s.state.displacement[0].z) < 0.01 * offset);
+}
+
+TEST_CASE("a body that heaves far without drag keeps its energy, whatever the time step", "[water][rigid]") {
+  // 0.1 m above its rest at a draught of 0.29 m, 75 times up and down.
+  const double ca = GENERATE(0.5, 1.0), angle = GENERATE(0.0, 20.0), time_step = GENERATE(0.01, 0.005);
+  CAPTURE(ca, angle, time_step);
+  cdem::Elastic wood = rock();
+  wood.density = 600;
+  geom::TetMesh box = geom::box_mesh({1, 0.8, 0.5}, {1, 1, 1});
+  for (Vec3& x : box.nodes)
+    x = rotation(Vec3::UnitY(), angle * degree) * (x - Vec3(0.5, 0.4, 0.5 * 600 / density)) +
+        0.1 * Vec3::UnitZ();
+  System s(build({meshed("unit", box, {}, wood)}));
+  cdem::set_rigid(s.model, s.state, {0});
+  s.conditions.gravity = gravity();
+  s.conditions.flows = {in_water(cdem::uniform_water(still(0)), 0, ca)};
+  cdem::RunOptions options;
+  options.time_step = time_step;
+  options.duration = 150;
+  double first = 0, last = 0; // J
+  options.callback = [&] {
+    const double kinetic = cdem::kinetic_energy(s.model, s.state);
+    double& largest = s.state.time < 75 ? first : last;
+    largest = std::max(largest, kinetic);
+  };
+  options.callback_every = 1;
+  s.run(options);
+  CHECK(last == Approx(first).epsilon(0.01));
+  CHECK(cdem::energy(s.model, s.state).balance_error() < 1e-9);
+}
+
+TEST_CASE("the time step does not decide where waves take a float", "[water][rigid]") {
+  cdem::WaveGiven given;
+  given.height = 0.3;
+  given.period = 3;
+  given.depth = 8;
+  const auto wave = std::make_shared<cdem::WaveField>(given);
+  const auto drift = [&](double time_step) { // m, in two periods
+    cdem::Elastic wood = rock();
+    wood.density = 600;
+    geom::TetMesh box = geom::box_mesh({1, 1, 0.5}, {2, 2, 2});
+    for (Vec3& x : box.nodes)
+      x -= Vec3(0.5, 0.5, 0.3);
+    System s(build({meshed("float", box, {}, wood)}));
+    cdem::set_rigid(s.model, s.state, {0});
+    s.conditions.gravity = gravity();
+    s.conditions.flows = {in_water(wave, 1, 0.5)};
+    cdem::RunOptions options;
+    options.time_step = time_step;
+    options.duration = 6;
+    s.run(options);
+    return s.state.rigid[0].centroid[0] - s.model.blocks[0].mass.centroid.x();
+  };
+  const double fine = drift(0.001);
+  CHECK(drift(0.01) == Approx(fine).margin(0.02));
+  CHECK(drift(0.05) == Approx(fine).margin(0.1));
 }
 
 TEST_CASE("the added mass of a body that floats is that of its wet volume, for any mesh", "[water]") {
@@ -294,6 +363,21 @@ TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][
     return wrench(s).force;
   };
   const double volume = 1.5 * 1.5 * 1.5;
+  const Vec3 at_rest = Vec3::Zero(), accelerated(0.4, 0, -0.2); // the body displaces the cavity too
+  CHECK((force(hollow, stream(at_rest, accelerated)) - sea_density * volume * accelerated).norm() <
+        1e-6 * sea_density);
+  for (const double level : {0.6, 0.75, 0.9, 3.0}) {
+    cdem::UniformWater water = still(level);
+    water.velocity = [=](double t) { return Vec3(t * accelerated.x(), 0, 0); };
+    System s(build({meshed("unit", hollow)}));
+    s.conditions.flows = {in_water(cdem::uniform_water(water), 0, 0.67)};
+    s.state.time = 1;
+    const double wet = volume * std::min(1.0, level / 1.5);
+    CHECK(wrench(s).force.x() == Approx(1.67 * sea_density * wet * accelerated.x()).epsilon(1e-6));
+    const cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
+    CHECK(std::accumulate(r.water_mass.begin(), r.water_mass.end(), 0.0) ==
+          Approx(0.67 * sea_density * wet).epsilon(1e-12));
+  }
   CHECK((force(hollow, cdem::uniform_water(still(3))) - volume * sea_weight * Vec3::UnitZ()).norm() <
         1e-9 * sea_weight);
   const Vec3 u(2, 0, 0);
@@ -309,6 +393,36 @@ TEST_CASE("no water stands or flows in a cavity that its body closes", "[water][
   cdem::Simulation given(spec, 1, nullptr);
   flow.on = {cdem::Selection::in_box({{0.4, 0.4, 0.4}, {1.1, 1.1, 1.1}})};
   CHECK_THROWS_WITH(given.flow(flow), Catch::Contains("cavities that a mesh closes"));
+}
+
+TEST_CASE("accelerated water takes a body once, and no body of which it meets a part", "[water]") {
+  const Vec3 acceleration(2, 0, 0);
+  const auto field = stream(Vec3::Zero(), acceleration);
+  System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))}));
+  s.state.time = 1;
+  const auto force_on = [&](const std::vector<std::vector<std::string>>& calls) {
+    s.conditions.flows.clear();
+    for (const std::vector<std::string>& sides : calls) {
+      cdem::Flow flow = in_water(field, 0);
+      flow.on = {cdem::Selection::side(sides[0])};
+      for (std::size_t i = 1; i < sides.size(); ++i)
+        flow.on.push_back(cdem::Selection::side(sides[i]));
+      s.conditions.flows.push_back(flow);
+    }
+    return wrench(s).force;
+  };
+  CHECK((force_on({{"x-", "x+", "y-", "y+", "z-", "z+"}}) - sea_density * acceleration).norm() <
+        1e-6 * sea_density);
+  CHECK(force_on({{"y-"}}).isZero(0));
+  CHECK(force_on({{"x-"}, {"x+"}}).isZero(0));
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))};
+  cdem::Simulation given(spec, 1, nullptr);
+  cdem::Flow part = in_water(field, 1, 0.5);
+  part.on = {cdem::Selection::side("x-")};
+  CHECK_THROWS_WITH(given.flow(part), Catch::Contains("name the whole body"));
+  part.added_mass = 0;
+  CHECK_NOTHROW(given.flow(part));
 }
 
 TEST_CASE("a run in waves that is left and goes on ends in the same bits", "[water][resume]") {
@@ -376,4 +490,9 @@ TEST_CASE("bodies and the water that carries them have one gravity", "[water][in
   given.flow(in_water(cdem::uniform_water(still(0.5))));
   CHECK_THROWS_WITH(given.check_run(0.5, 2), Catch::Contains("gravity: amplitude"));
   CHECK_NOTHROW(given.check_run(1, 2));
+  cdem::RunOptions options;
+  options.steps = 1;
+  CHECK_THROWS_WITH(given.run(options), Catch::Contains("0 at t = 0 s"));
+  given.gravity(gravity({0, 0, -9.81}));
+  CHECK_NOTHROW(given.run(options));
 }

@@ -103,7 +103,6 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
     }
     require(flow.corners.size() <= flow.forces.size(), "restart.flows", count(flow.corners.size()));
   }
-  length("restart.water_mass", point.flows.water_mass.size(), model.node_position.size());
   length("restart.near", point.near.size(), model.mesh.batches.size());
   length("restart.previous_force", point.previous_force.size(), model.node_position.size());
   length("restart.spring_force", point.spring_force.size(), model.points.size());
