@@ -283,7 +283,7 @@ const Record<WaterPoint> water_point{
       [](const WaterPoint& point) { return if_finite(point.surface); }}}};
 
 Table point_at(Session&, WaterObject& water, const Arguments& a) {
-  return water_point(water.field->at(a.vec3("place"), a.number("time")));
+  return water_point(seen_at(*water.field, a.vec3("place"), a.number("time")));
 }
 
 void bind_water_class(Module& m) {
