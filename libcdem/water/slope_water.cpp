@@ -11,8 +11,8 @@
 namespace cdem {
 namespace {
 
-constexpr double frames_per_second = 50, frame = 1 / frames_per_second; // s, whatever the duration
-constexpr double wet_depth = 1e-3; // of still water: thinner films neither load nor count as run-up
+constexpr double most_kept = 1.2e8; // cells times frames, 2 GB
+constexpr double wet_depth = 1e-3;  // of still water: thinner films neither load nor count as run-up
 
 double bed_at(const std::vector<std::array<double, 2>>& bed, double x) {
   std::size_t i = 1;
@@ -42,6 +42,12 @@ std::vector<std::size_t> nearest_wet(const ShallowWater& water) {
   return nearest;
 }
 
+// Between frames, s: the time that a long wave takes over a cell at the foot, whatever the duration. So the frames follow
+// the scale of the problem.
+double frame_of(const SlopeGiven& g) {
+  return g.cell / std::sqrt(g.gravity * (g.level - g.bed[0][1]));
+}
+
 void check_slope(const SlopeGiven& g) {
   geom::require_positive("duration", g.duration, "s");
   geom::require_positive("cell", g.cell);
@@ -64,11 +70,10 @@ void check_slope(const SlopeGiven& g) {
     throw geom::InputError(
         "cell", fmt::format("{:g}", g.cell),
         fmt::format("one that gives 10 to 20000 cells over {:g} m", g.bed.back()[0] - g.bed[0][0]));
-  if (cells * g.duration * frames_per_second > 1.2e8)
-    throw geom::InputError(
-        "duration", fmt::format("{:g}", g.duration),
-        fmt::format("at most {:.3g} s with this cell", 1.2e8 / (cells * frames_per_second)),
-        "the solution would take more than 2 GB");
+  if (const double longest = most_kept / cells * frame_of(g); g.duration > longest)
+    throw geom::InputError("duration", fmt::format("{:g}", g.duration),
+                           fmt::format("at most {:.3g} s with this cell", longest),
+                           "the solution would take more than 2 GB; a cell twice as large takes a quarter");
   if (!(geom::Vec3(g.direction.x(), g.direction.y(), 0).norm() > 0))
     throw geom::InputError("direction", geom::text(g.direction), "a vector with a horizontal part");
 }
@@ -77,6 +82,7 @@ void check_slope(const SlopeGiven& g) {
 
 SlopeWater::SlopeWater(const SlopeGiven& given) : given_(given) {
   check_slope(given_);
+  frame_ = frame_of(given_);
   along_ = geom::Vec3(given_.direction.x(), given_.direction.y(), 0).normalized();
   const auto n =
       static_cast<std::size_t>(std::ceil((given_.bed.back()[0] - given_.bed[0][0]) / given_.cell - 1e-9));
@@ -98,14 +104,14 @@ SlopeWater::SlopeWater(const SlopeGiven& given) : given_(given) {
 }
 
 void SlopeWater::compute(ShallowWater& water) {
-  const int frames = static_cast<int>(std::ceil(given_.duration * frames_per_second));
+  const int frames = static_cast<int>(std::ceil(given_.duration / frame_));
   keep(water);
   for (int i = 0; i < frames; ++i) {
-    double left = frame;
-    while (left > 1e-12 * frame) {
+    double left = frame_;
+    while (left > 1e-12 * frame_) {
       double dt = water.longest_step();
       dt = dt >= left ? left : std::min(dt, 0.5 * left);
-      water.step((i + 1) * frame - left, dt);
+      water.step((i + 1) * frame_ - left, dt);
       left -= dt;
     }
     keep(water);
@@ -153,7 +159,7 @@ SlopeWater::Where SlopeWater::where(const geom::Vec3& place, double time) const 
         "water on the slope at {}, {:g} m along its bed: it is known from {:g} to {:g} m; let the bed go "
         "on beyond the bodies",
         geom::place_text(place), s, line.front()[0], line.back()[0]));
-  const double at = time / frame;
+  const double at = time / frame_;
   const std::size_t i = std::min(static_cast<std::size_t>(at), surface_.size() - 2);
   return {s, i, std::min(1.0, at - static_cast<double>(i))};
 }
@@ -182,8 +188,8 @@ WaterPoint SlopeWater::at(const geom::Vec3& place, double time) const {
   double w_top = u * bed_slope, along = 0, surface_slope = 0;
   if (a.wet() && b.wet() && al.wet() && ar.wet() && bl.wet() && br.wet()) {
     surface_slope = (mix(ar.surface, br.surface) - mix(al.surface, bl.surface)) / (2 * d);
-    w_top = (b.surface - a.surface) / frame + u * surface_slope;
-    along = (b.u - a.u) / frame + u * (mix(ar.u, br.u) - mix(al.u, bl.u)) / (2 * d);
+    w_top = (b.surface - a.surface) / frame_ + u * surface_slope;
+    along = (b.u - a.u) / frame_ + u * (mix(ar.u, br.u) - mix(al.u, bl.u)) / (2 * d);
   }
   point.surface_slope = surface_slope * along_;
   point.pressure_gradient = given_.density * g * (point.surface_slope - geom::Vec3::UnitZ());

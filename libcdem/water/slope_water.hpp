@@ -56,6 +56,7 @@ private:
 
   SlopeGiven given_;
   geom::Vec3 along_ = geom::Vec3::UnitX();
+  double frame_ = 0;        // s, between frames
   std::vector<double> bed_; // m, of the cells
   // m, m/s, of the cells at each frame; of a dry cell those of the nearest wet one, the surface no higher than the bed
   std::vector<std::vector<double>> surface_, u_;

@@ -234,6 +234,41 @@ TEST_CASE("the surface on a slope has no jumps where a wave runs up and down", "
     }
 }
 
+TEST_CASE("the water on a slope obeys Froude's law to the bit: lengths by 4 or 1/16, times by 2 or 1/4",
+          "[water]") {
+  const auto [length, time] = GENERATE(std::pair(4., 2.), std::pair(1. / 16, 1. / 4));
+  const auto scaled = [](double l, double s) {
+    cdem::SlopeGiven given = slope_of(2, 2);
+    for (auto& point : given.bed)
+      point = {l * point[0], l * point[1]};
+    given.cell = 0.1 * l;
+    given.duration = 5 * s;
+    given.entering = [=](double t) { return 0.3 * l * std::sin(2 * t / s); };
+    return cdem::SlopeWater(given);
+  };
+  const cdem::SlopeWater model = scaled(1, 1), other = scaled(length, time);
+  CHECK(model.run_up() > 0.3);
+  CHECK(other.run_up() == length * model.run_up());
+  CHECK(other.run_down() == length * model.run_down());
+  for (double t = 0; t < 5; t += 0.37)
+    for (double x = 0.2; x < 5; x += 0.43) {
+      const cdem::WaterPoint a = model.at({x, 0, -0.4}, t),
+                             b = other.at(length * geom::Vec3(x, 0, -0.4), time * t);
+      REQUIRE(b.surface == length * a.surface);
+      REQUIRE(b.pressure == length * a.pressure);
+      REQUIRE(b.velocity == length / time * a.velocity);
+      REQUIRE(b.acceleration == a.acceleration);
+    }
+}
+
+TEST_CASE("a solution that would take more than 2 GB is refused, and the message names the cell", "[water]") {
+  cdem::SlopeGiven given = slope_of(2, 2); // 5.4 m of bed
+  given.cell = 1e-3;
+  given.duration = 10; // 5400 cells, 4.43 m/s over 1 mm: 44300 frames
+  CHECK_THROWS_WITH(cdem::SlopeWater(given), Catch::Contains("at most 5.02 s with this cell") &&
+                                                 Catch::Contains("a cell twice as large takes a quarter"));
+}
+
 TEST_CASE("the water on a slope does not depend on how long it is asked for", "[water]") {
   cdem::SlopeGiven given = slope_of(2, 10);
   given.cell = 0.2;
