@@ -39,6 +39,7 @@ RecordedWater::RecordedWater(WaterRecord record) : record_(std::move(record)) {
   with_pressure_ = !record_.frames[0].pressure.empty();
   const bool with_fraction = !record_.frames[0].fraction.empty();
   with_surface_ = with_fraction || record_.level;
+  water_up_to_ = with_fraction ? on_bed : record_.level.value_or(std::numeric_limits<double>::infinity());
   for (WaterFrame& frame : record_.frames) {
     const std::vector<char> known = frame.known;
     fill_unknown(frame);
@@ -239,11 +240,13 @@ void RecordedWater::require_known(const geom::Vec3& place, double time) const {
   const geom::Vec3 slack = 1e-6 * record_.spacing;
   const bool beside = (place.head<2>().array() < (known.min - slack).head<2>().array()).any() ||
                       (place.head<2>().array() > (known.max + slack).head<2>().array()).any();
-  if (beside || place.z() < known.min.z() - slack.z() || !place.allFinite())
+  const bool above = place.z() > known.max.z() + slack.z() && place.z() <= water_up_to_;
+  if (beside || above || place.z() < known.min.z() - slack.z() || !place.allFinite())
     throw geom::InputError(fmt::format(
         "water of files at {}: it is known from {} to {}; shift the files or the model, or write a "
-        "larger box",
-        geom::place_text(place), geom::place_text(known.min), geom::place_text(known.max)));
+        "larger box{}",
+        geom::place_text(place), geom::place_text(known.min), geom::place_text(known.max),
+        above && !with_surface_ ? ", or give the level or the water fraction, which say where it ends" : ""));
   const std::vector<double>& t = record_.times;
   const double rounding = 1e-9 * (std::abs(t.front()) + std::abs(t.back()));
   if (t.size() > 1 && !(time >= t.front() - rounding && time <= t.back() + rounding))

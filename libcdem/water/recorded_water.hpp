@@ -37,7 +37,8 @@ struct WaterRecord {
 class RecordedWater final : public WaterOverBed {
 public:
   explicit RecordedWater(WaterRecord); // throws geom::InputError
-  // Throws geom::InputError beside or below the grid, and before its first or after its last time.
+  // Throws geom::InputError beside or below the grid, in water above it, and before its first or after its last time. Above the
+  // grid there is air where a water fraction or a level below says so.
   WaterPoint at(const geom::Vec3& place, double time) const override;
   bool is_dry(const geom::Vec3& place, double time) const override;
   double density() const override { return record_.density; }
@@ -82,6 +83,8 @@ private:
 
   WaterRecord record_;
   bool with_pressure_ = false, with_surface_ = false;
+  double water_up_to_ =
+      0; // m, z: that of the level, infinite without one; minus infinite where fractions tell
   std::vector<std::vector<Layers>> layers_;           // of each column at each time; the lowest is on the bed
   std::vector<std::vector<geom::Vec3>> acceleration_; // m/s2, at the grid points at each time
 };

@@ -142,6 +142,19 @@ TEST_CASE("recorded water is refused beside its box, outside of its times, and o
   CHECK_THROWS_WITH(water.at({4.1, 0, -1}, 0), Catch::Matchers::Contains("is known from"));
   CHECK_THROWS_WITH(water.at({0, 0, -4.2}, 0), Catch::Matchers::Contains("is known from"));
   CHECK_THROWS_WITH(water.at({0, 0, -1}, 1.1), Catch::Matchers::Contains("from 0 to 1 s"));
+  for (const bool pressure : {true, false}) { // no fraction: water everywhere, but known up to z = 2
+    cdem::WaterRecord endless = recorded(wave, {0.5, 0.5, pressure, false}), deep = endless, level = endless;
+    deep.level = 2.5;
+    level.level = 0.3;
+    const cdem::RecordedWater no_end(std::move(endless)), above_box(std::move(deep)),
+        in_box(std::move(level));
+    CHECK_NOTHROW(no_end.at({0, 0, 2}, 0));
+    CHECK_THROWS_WITH(no_end.at({0, 0, 2.1}, 0),
+                      Catch::Matchers::Contains("give the level or the water fraction"));
+    CHECK_THROWS_WITH(above_box.at({0, 0, 2.4}, 0), Catch::Matchers::Contains("is known from"));
+    CHECK_NOTHROW(above_box.at({0, 0, 2.6}, 0)); // air
+    CHECK(in_box.at({0, 0, 50}, 0).pressure == 0);
+  }
   cdem::WaterRecord twice = recorded(wave, {0.5, 0.5});
   twice.times[1] = twice.times[0];
   CHECK_THROWS_WITH(cdem::RecordedWater(twice), Catch::Matchers::Contains("times[2] = 0: must be later"));

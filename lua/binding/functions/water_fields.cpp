@@ -381,7 +381,8 @@ void bind_water_fields(Module& m) {
       "Water that another program has computed, from VTK's files (.vti, .vtu, .vts, .vtr, legacy .vtk) at "
       "several times. It is put on a regular grid, and is linear between its points and times. The free "
       "surface is where the water fraction is 1/2. A run that asks beyond the box or the times of the files "
-      "ends with an error. One file alone is water that does not change.",
+      "ends with an error; above the box there may be air, where a fraction or a level tells. One file alone "
+      "is water that does not change.",
       std::vector<Field>{
           text("series").doc("a .pvd file, which lists files with their times; give it or files"),
           list("files", text_type()).doc("in the order of their times"),
