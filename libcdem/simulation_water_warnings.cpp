@@ -4,6 +4,7 @@
 #include "libcdem/load/water_table.hpp"
 #include "libcdem/simulation_warnings.hpp"
 #include "libcdem/state/places.hpp"
+#include "libcdem/water/water_over_bed.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +61,7 @@ void Warnings::look_for_dry_flows(double begin, double end) {
     bool wet = false;
     for (int t = 0; t < times && !wet; ++t)
       for (std::size_t p = 0; p < places.size() && !wet; p += p < lowest ? 1 : stride) {
-        const double surface = flow.water->at(places[p], begin + (end - begin) * t / times).surface;
+        const double surface = seen_at(*flow.water, places[p], begin + (end - begin) * t / times).surface;
         highest = std::max(highest, surface);
         wet = places[p].z() < surface;
       }

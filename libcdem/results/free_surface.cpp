@@ -2,6 +2,7 @@
 
 #include "libcdem/load/water_table.hpp"
 #include "libcdem/water/plain_water.hpp"
+#include "libcdem/water/water_over_bed.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ constexpr int arrows_over_depth = 8; // in a section, over the height of the box
 // With a surface at nan where the field is not known: files have a box and times, which may be smaller than those of the model.
 WaterPoint asked(const WaterField& water, const Vec3& place, double time) {
   try {
-    return water.at(place, time);
+    return seen_at(water, place, time);
   } catch (const geom::InputError&) {
     WaterPoint unknown;
     unknown.surface = std::nan("");

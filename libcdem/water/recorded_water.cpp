@@ -11,7 +11,7 @@
 namespace cdem {
 namespace {
 
-constexpr double dry = -std::numeric_limits<double>::infinity();
+constexpr double on_bed = -std::numeric_limits<double>::infinity(); // bottom of a layer
 constexpr int filled_layers = 3; // of grid points outside of the cells, from the cells on
 constexpr double no_air = 1e-9;  // share of air where water has its water fraction
 
@@ -39,13 +39,18 @@ RecordedWater::RecordedWater(WaterRecord record) : record_(std::move(record)) {
   with_pressure_ = !record_.frames[0].pressure.empty();
   const bool with_fraction = !record_.frames[0].fraction.empty();
   with_surface_ = with_fraction || record_.level;
-  for (std::size_t frame = 0; frame < record_.frames.size(); ++frame) {
-    fill_unknown(record_.frames[frame]);
+  water_up_to_ = with_fraction ? on_bed : record_.level.value_or(std::numeric_limits<double>::infinity());
+  for (WaterFrame& frame : record_.frames) {
+    const std::vector<char> known = frame.known;
+    fill_unknown(frame);
     const double level = record_.level.value_or(std::numeric_limits<double>::infinity());
-    std::vector<Layers>& layers = layers_.emplace_back(columns(), Layers{{dry, level}});
-    for (int j = 0; with_fraction && j < record_.size[1]; ++j)
+    std::vector<Layers>& layers = layers_.emplace_back(columns(), Layers{{on_bed, level}});
+    if (!with_fraction)
+      continue;
+    for (int j = 0; j < record_.size[1]; ++j)
       for (int i = 0; i < record_.size[0]; ++i)
-        layers[number(i, j, 0)] = find_layers(record_.frames[frame], i, j);
+        layers[number(i, j, 0)] = find_layers(frame, known, i, j);
+    continue_over_dry(frame, known, layers);
   }
   find_accelerations();
 }
@@ -104,15 +109,16 @@ void RecordedWater::fill_unknown(WaterFrame& f) const {
   }
 }
 
-// From the water fraction; and what goes on above each layer, and a point below one that hangs in the air.
-RecordedWater::Layers RecordedWater::find_layers(WaterFrame& f, int i, int j) const {
+// From the water fraction; and what goes on above each layer, and a point below one that hangs in the air. Water that
+// fill_unknown alone has put into the ground is no layer; known: before it.
+RecordedWater::Layers RecordedWater::find_layers(WaterFrame& f, const std::vector<char>& known, int i,
+                                                 int j) const {
   const int points = record_.size[2];
-  const double step = record_.spacing.z(), none = dry;
+  const double step = record_.spacing.z();
   const auto at = [&](int k) { return number(i, j, k); };
   const auto wet = [&](int k) { return f.fraction[at(k)] >= 0.5; };
-  const auto in_air = [&](int k) {
-    return k >= 0 && k < points && !wet(k) && (f.known.empty() || f.known[at(k)]);
-  };
+  const auto is_known = [&](int k) { return known.empty() || known[at(k)]; };
+  const auto in_air = [&](int k) { return k >= 0 && k < points && !wet(k) && is_known(k); };
   const auto height = [&](int k) { return record_.origin.z() + k * step; };
   // From the wet point k to the dry one beside it, in steps.
   const auto crossing = [&](int k, int beside) {
@@ -124,9 +130,12 @@ RecordedWater::Layers RecordedWater::find_layers(WaterFrame& f, int i, int j) co
     if (!wet(k))
       continue;
     const int first = k;
-    while (k + 1 < points && wet(k + 1))
-      ++k;
-    layers.push_back({in_air(first - 1) ? height(first) - crossing(first, first - 1) * step : none,
+    bool in_ground = !is_known(k);
+    for (; k + 1 < points && wet(k + 1); ++k)
+      in_ground = in_ground && !is_known(k + 1);
+    if (in_ground)
+      continue;
+    layers.push_back({in_air(first - 1) ? height(first) - crossing(first, first - 1) * step : on_bed,
                       height(k) + (k + 1 < points ? crossing(k, k + 1) * step : 0)});
     if (in_air(first - 1) && (first < 2 || !wet(first - 2))) {
       f.velocity[at(first - 1)] = f.velocity[at(first)];
@@ -140,6 +149,52 @@ RecordedWater::Layers RecordedWater::find_layers(WaterFrame& f, int i, int j) co
     }
   }
   return layers;
+}
+
+// The surface of the nearest column that has water on its bed, no higher than the bed; the velocity goes on with it, and the
+// pressure is hydrostatic.
+void RecordedWater::continue_over_dry(WaterFrame& f, const std::vector<char>& known,
+                                      std::vector<Layers>& layers) const {
+  const auto& n = record_.size;
+  const double lowest = record_.origin.z(), step = record_.spacing.z();
+  const auto bed_of = [&](std::size_t column) {
+    int k = 0;
+    while (k < n[2] && !known.empty() && !known[column + k * columns()])
+      ++k;
+    return k < n[2] ? lowest + k * step : std::numeric_limits<double>::infinity();
+  };
+  const auto go_on = [&](std::size_t column, std::size_t from) {
+    const double top = std::min(layers[from].front().top, bed_of(column));
+    const double up_to = layers[column].empty() ? -on_bed : layers[column].front().bottom - step;
+    layers[column].insert(layers[column].begin(), {on_bed, top, true});
+    for (int k = 0; k < n[2] && lowest + k * step < up_to; ++k) {
+      f.velocity[column + k * columns()] = f.velocity[from + k * columns()];
+      if (with_pressure_)
+        f.pressure[column + k * columns()] = weight() * (top - (lowest + k * step));
+    }
+  };
+  std::vector<std::size_t> source(columns(), columns()), reached; // reached: from the water outwards
+  for (std::size_t column = 0; column < columns(); ++column)
+    if (!layers[column].empty() && layers[column].front().bottom == on_bed) {
+      source[column] = column;
+      reached.push_back(column);
+    }
+  if (reached.empty())
+    for (Layers& column : layers)
+      column.insert(column.begin(), {on_bed, lowest, true});
+  for (std::size_t next = 0; next < reached.size(); ++next) {
+    const std::size_t here = reached[next];
+    const int i = static_cast<int>(here) % n[0], j = static_cast<int>(here) / n[0];
+    for (const auto& [a, b] :
+         {std::pair(i - 1, j), std::pair(i + 1, j), std::pair(i, j - 1), std::pair(i, j + 1)}) {
+      if (a < 0 || b < 0 || a >= n[0] || b >= n[1] || source[number(a, b, 0)] != columns())
+        continue;
+      const std::size_t beside = number(a, b, 0);
+      source[beside] = source[here];
+      go_on(beside, source[here]);
+      reached.push_back(beside);
+    }
+  }
 }
 
 void RecordedWater::find_accelerations() {
@@ -185,11 +240,13 @@ void RecordedWater::require_known(const geom::Vec3& place, double time) const {
   const geom::Vec3 slack = 1e-6 * record_.spacing;
   const bool beside = (place.head<2>().array() < (known.min - slack).head<2>().array()).any() ||
                       (place.head<2>().array() > (known.max + slack).head<2>().array()).any();
-  if (beside || place.z() < known.min.z() - slack.z() || !place.allFinite())
+  const bool above = place.z() > known.max.z() + slack.z() && place.z() <= water_up_to_;
+  if (beside || above || place.z() < known.min.z() - slack.z() || !place.allFinite())
     throw geom::InputError(fmt::format(
         "water of files at {}: it is known from {} to {}; shift the files or the model, or write a "
-        "larger box",
-        geom::place_text(place), geom::place_text(known.min), geom::place_text(known.max)));
+        "larger box{}",
+        geom::place_text(place), geom::place_text(known.min), geom::place_text(known.max),
+        above && !with_surface_ ? ", or give the level or the water fraction, which say where it ends" : ""));
   const std::vector<double>& t = record_.times;
   const double rounding = 1e-9 * (std::abs(t.front()) + std::abs(t.back()));
   if (t.size() > 1 && !(time >= t.front() - rounding && time <= t.back() + rounding))
@@ -237,12 +294,8 @@ RecordedWater::Here RecordedWater::in_frame(std::size_t frame, const geom::Vec3&
   const Corner& nearest = *std::max_element(
       over_bed.begin(), over_bed.end(), [](const Corner& a, const Corner& b) { return a.share < b.share; });
   for (const Layer& layer : layers_[frame][nearest.column])
-    if (!here.wet || layer.bottom <= place.z()) {
+    if (layer.bottom <= place.z())
       here.layer = layer;
-      here.wet = layer.bottom <= place.z();
-    }
-  if (!here.wet)
-    return here;
   double wet = 0, surface = 0;
   geom::Vec3 wet_gradient = geom::Vec3::Zero(), surface_gradient = geom::Vec3::Zero();
   for (const Corner& c : over_bed) {
@@ -275,24 +328,31 @@ RecordedWater::Here RecordedWater::in_frame(std::size_t frame, const geom::Vec3&
   return here;
 }
 
-WaterPoint RecordedWater::at(const geom::Vec3& place, double time) const {
-  require_known(place, time);
+RecordedWater::Moment RecordedWater::moment(double time) const {
   const std::vector<double>& t = record_.times;
   const auto next = std::upper_bound(t.begin() + 1, t.end() - (t.size() > 1 ? 1 : 0), time);
   const std::size_t second = t.size() > 1 ? static_cast<std::size_t>(next - t.begin()) : 0;
   const std::size_t first = second > 0 ? second - 1 : 0;
-  double part = second > first ? std::clamp((time - t[first]) / (t[second] - t[first]), 0.0, 1.0) : 0.0;
+  return {first, second,
+          second > first ? std::clamp((time - t[first]) / (t[second] - t[first]), 0.0, 1.0) : 0};
+}
+
+bool RecordedWater::is_dry(const geom::Vec3& place, double time) const {
+  require_known(place, time);
+  const Moment now = moment(time);
+  return in_frame(now.part < 0.5 ? now.first : now.second, place).layer.dry;
+}
+
+WaterPoint RecordedWater::at(const geom::Vec3& place, double time) const {
+  require_known(place, time);
+  auto [first, second, part] = moment(time);
   Here a = in_frame(first, place), b = second > first ? in_frame(second, place) : a;
-  if (!a.wet || !b.wet ||
-      !a.layer.meets(b.layer)) { // one of them is dry, or has another layer: the nearer in time
+  if (!a.layer.meets(b.layer)) { // one of them has another layer: the nearer in time
     a = part < 0.5 ? a : b;
     b = a;
     part = 0;
   }
   WaterPoint point;
-  point.surface = dry;
-  if (!a.wet)
-    return point;
   const auto mix = [part](const auto& early, const auto& late) {
     return std::decay_t<decltype(early)>(early + part * (late - early));
   };

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "libcdem/water/shallow_water.hpp"
-#include "libcdem/water/water_field.hpp"
+#include "libcdem/water/water_over_bed.hpp"
 
 #include <array>
 
@@ -24,11 +24,12 @@ struct SlopeGiven {
   double density = 1025, gravity = 9.81;                      // kg/m3, m/s2
 };
 
-class SlopeWater final : public WaterField {
+class SlopeWater final : public WaterOverBed {
 public:
   explicit SlopeWater(const SlopeGiven&); // throws geom::InputError
   // Throws geom::InputError beyond both ends of the bed, and after the duration.
   WaterPoint at(const geom::Vec3& place, double time) const override;
+  bool is_dry(const geom::Vec3& place, double time) const override;
   double density() const override { return given_.density; }
   double gravity() const override { return given_.gravity; }
   bool has_dynamic_pressure() const override { return true; }
@@ -41,16 +42,24 @@ public:
 private:
   struct Column {                       // between two cells
     double surface = 0, bed = 0, u = 0; // m, m, m/s
-    bool wet = false;
+    bool wet() const { return surface > bed; }
   };
+  struct Where {
+    double s = 0; // m, along the bed
+    std::size_t frame = 0;
+    double part = 0; // of the way to the next frame
+  };
+  Where where(const geom::Vec3& place, double time) const;
   Column column(std::size_t frame, double s) const;
   void compute(ShallowWater&);
   void keep(const ShallowWater&);
 
   SlopeGiven given_;
   geom::Vec3 along_ = geom::Vec3::UnitX();
-  std::vector<double> bed_;                // m, of the cells
-  std::vector<std::vector<double>> h_, u_; // m, m/s, of the cells at each frame
+  double frame_ = 0;        // s, between frames
+  std::vector<double> bed_; // m, of the cells
+  // m, m/s, of the cells at each frame; of a dry cell those of the nearest wet one, the surface no higher than the bed
+  std::vector<std::vector<double>> surface_, u_;
   double run_up_ = 0, run_down_ = 0;
 };
 

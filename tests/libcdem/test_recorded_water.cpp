@@ -142,6 +142,19 @@ TEST_CASE("recorded water is refused beside its box, outside of its times, and o
   CHECK_THROWS_WITH(water.at({4.1, 0, -1}, 0), Catch::Matchers::Contains("is known from"));
   CHECK_THROWS_WITH(water.at({0, 0, -4.2}, 0), Catch::Matchers::Contains("is known from"));
   CHECK_THROWS_WITH(water.at({0, 0, -1}, 1.1), Catch::Matchers::Contains("from 0 to 1 s"));
+  for (const bool pressure : {true, false}) { // no fraction: water everywhere, but known up to z = 2
+    cdem::WaterRecord endless = recorded(wave, {0.5, 0.5, pressure, false}), deep = endless, level = endless;
+    deep.level = 2.5;
+    level.level = 0.3;
+    const cdem::RecordedWater no_end(std::move(endless)), above_box(std::move(deep)),
+        in_box(std::move(level));
+    CHECK_NOTHROW(no_end.at({0, 0, 2}, 0));
+    CHECK_THROWS_WITH(no_end.at({0, 0, 2.1}, 0),
+                      Catch::Matchers::Contains("give the level or the water fraction"));
+    CHECK_THROWS_WITH(above_box.at({0, 0, 2.4}, 0), Catch::Matchers::Contains("is known from"));
+    CHECK_NOTHROW(above_box.at({0, 0, 2.6}, 0)); // air
+    CHECK(in_box.at({0, 0, 50}, 0).pressure == 0);
+  }
   cdem::WaterRecord twice = recorded(wave, {0.5, 0.5});
   twice.times[1] = twice.times[0];
   CHECK_THROWS_WITH(cdem::RecordedWater(twice), Catch::Matchers::Contains("times[2] = 0: must be later"));
@@ -162,7 +175,9 @@ TEST_CASE("a place inside a solid has the water beside it, and a dry column none
   const cdem::RecordedWater water(std::move(r));
   CHECK(water.at({2, 0, 0.5}, 7).velocity.x() == Approx(1));
   CHECK(water.at({1.5, 0, 2}, 0).surface == Approx(2.5));
-  CHECK(water.at({5, 0, 1}, 0).surface < -1e300);
+  CHECK(water.is_dry({5, 0, 1}, 0));
+  CHECK(water.at({5, 0, 1}, 0).surface == 0); // the lowest point of the column is its bed
+  CHECK(water.at({3.4, 0, 1}, 0).surface == Approx(1.5));
 }
 
 TEST_CASE("a jet over air over a pool is two layers of water, with air between them", "[water]") {
@@ -199,6 +214,33 @@ TEST_CASE("a jet over air over a pool is two layers of water, with air between t
   cdem::update_external(conditions, 0, &s.state.velocity);
   for (const auto& force : conditions.external)
     CHECK(vec(force).norm() == 0);
+}
+
+TEST_CASE("a cube across the shore of recorded still water floats as in water of that level", "[water]") {
+  const bool pressure = GENERATE(true, false);
+  cdem::WaterRecord r;
+  r.origin = {-2, 0, -1};
+  r.spacing = {0.2, 1, 0.2};
+  r.size = {21, 1, 16};
+  r.times = {0};
+  cdem::WaterFrame& f = r.frames.emplace_back();
+  for (int k = 0; k < r.size[2]; ++k)
+    for (int i = 0; i < r.size[0]; ++i) {
+      const double x = -2 + 0.2 * i, z = -1 + 0.2 * k, level = 0.1;
+      const bool ground = z < x / 2 - 0.05; // 1:2, and the shore at x = 0.3
+      f.known.push_back(!ground);
+      f.velocity.emplace_back(0, 0, ground || z < level ? 0 : 20); // wind
+      if (pressure)
+        f.pressure.push_back(ground ? 0 : 1025 * 9.81 * std::max(0.0, level - z));
+      f.fraction.push_back(ground ? 0 : std::min(1., std::max(0., 0.5 + (level - z) / 0.2)));
+    }
+  cdem::UniformWater level;
+  level.velocity = [](double) { return Vec3(Vec3::Zero()); };
+  level.level = 0.1;
+  const Vec3 exact = force_on_cube(cdem::uniform_water(level), -0.3, 0),
+             force = force_on_cube(std::make_shared<cdem::RecordedWater>(std::move(r)), -0.3, 0);
+  CHECK(exact.z() == Approx(1025 * 9.81 * 0.4));
+  CHECK((force - exact).norm() < 1e-9 * exact.norm());
 }
 
 TEST_CASE("still water goes on hydrostatic into points that the cells leave out", "[water]") {

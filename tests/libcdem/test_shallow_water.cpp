@@ -1,6 +1,10 @@
 // Shallow water along a slope against exact solutions, and the field made of it.
+#include "libcdem/water/plain_water.hpp"
 #include "libcdem/water/slope_water.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
+#include "tests/libcdem/system.hpp"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -170,10 +174,99 @@ TEST_CASE("the field on a slope: still water is flat, hydrostatic and at rest", 
   CHECK(point.pressure == Approx(1025 * earth * 1.3).epsilon(1e-12));
   CHECK(point.velocity.norm() < 1e-12);
   CHECK(point.acceleration.norm() < 1e-11);
-  CHECK(std::isinf(water.at({15, 0, 3}, 0.5).surface)); // on the dry slope
+  CHECK(water.is_dry({15, 0, 3}, 0.5));
+  CHECK(!water.is_dry({11.9, 0, 3}, 0.5)); // the shore is at 12 m
+  CHECK(water.at({15, 0, 3}, 0.5).surface == Approx(2).margin(1e-12));
   CHECK_THROWS_WITH(water.at({5, 0, 0}, 1.5), Catch::Contains("known from 0 to 1 s"));
   for (const double beyond : {given.bed.front()[0] - 0.1, given.bed.back()[0] + 0.1})
     CHECK_THROWS_WITH(water.at({beyond, 0, 0}, 0.5), Catch::Contains("along its bed: it is known from"));
+}
+
+TEST_CASE("a box across the shore is cut where still water meets it, whatever the cell and the mesh",
+          "[water]") {
+  cdem::SlopeGiven given = slope_of(2, 2); // 1:2, and the shore at x = 4
+  given.duration = 0.1;
+  given.cell =
+      GENERATE(0.3, 0.02, 0.003); // with the last one films, too thin to count as wet, end at the shore
+  given.entering = [](double) { return 0.0; };
+  const int divisions = GENERATE(1, 3);
+  geom::TetMesh mesh = geom::box_mesh({2, 1, 1}, {2 * divisions, divisions, divisions});
+  const geom::Mat3 up_slope = Eigen::AngleAxisd(-std::atan(0.5), geom::Vec3::UnitY()).toRotationMatrix();
+  for (geom::Vec3& x : mesh.nodes)
+    x = geom::Vec3(4, 0, 0) + up_slope * (x + geom::Vec3(-1, -0.5, 0.02));
+  testing::System s(testing::build({testing::meshed("box", mesh)}));
+  s.state.time = 0.05;
+  // Its force (N), of this water.
+  const auto force = [&](std::shared_ptr<const cdem::WaterField> water) {
+    cdem::Flow flow;
+    flow.water = std::move(water);
+    flow.added_mass = 1;
+    s.conditions.flows = {flow};
+    cdem::ResolvedConditions r = cdem::resolve(s.model, s.state, s.conditions);
+    cdem::update_external(r, s.state.time, &s.state.velocity);
+    geom::Vec3 sum = geom::Vec3::Zero();
+    for (const auto& f : r.external)
+      sum += testing::vec(f);
+    return sum;
+  };
+  cdem::UniformWater level;
+  level.velocity = [](double) { return geom::Vec3(geom::Vec3::Zero()); };
+  level.level = 0;
+  const geom::Vec3 exact = force(cdem::uniform_water(level));
+  CHECK(exact.z() > 1025 * earth * 0.2);
+  CHECK((force(std::make_shared<cdem::SlopeWater>(given)) - exact).norm() < 1e-9 * exact.norm());
+}
+
+TEST_CASE("the surface on a slope has no jumps where a wave runs up and down", "[water]") {
+  cdem::SlopeGiven given = slope_of(3, 4);
+  given.cell = 0.1;
+  given.entering = [](double t) { return 0.6 * std::sin(1.6 * t); };
+  given.duration = 9;
+  const cdem::SlopeWater water(given);
+  CHECK(water.run_up() > 0.5);
+  for (double t = 0; t < 9; t += 0.37)
+    for (double x = given.bed[0][0] + 0.1; x < given.bed[1][0]; x += 0.013) {
+      const cdem::WaterPoint a = water.at({x - 1e-7, 0, 0}, t), b = water.at({x + 1e-7, 0, 0}, t);
+      const double bed = (x - 12) / 3;
+      REQUIRE(std::abs(a.surface - b.surface) < 1e-5);
+      REQUIRE(std::abs(a.velocity.x() - b.velocity.x()) < 1e-3);
+      REQUIRE((!water.is_dry({x, 0, 0}, t) || a.surface < bed + 1e-6));
+    }
+}
+
+TEST_CASE("the water on a slope obeys Froude's law to the bit: lengths by 4 or 1/16, times by 2 or 1/4",
+          "[water]") {
+  const auto [length, time] = GENERATE(std::pair(4., 2.), std::pair(1. / 16, 1. / 4));
+  const auto scaled = [](double l, double s) {
+    cdem::SlopeGiven given = slope_of(2, 2);
+    for (auto& point : given.bed)
+      point = {l * point[0], l * point[1]};
+    given.cell = 0.1 * l;
+    given.duration = 5 * s;
+    given.entering = [=](double t) { return 0.3 * l * std::sin(2 * t / s); };
+    return cdem::SlopeWater(given);
+  };
+  const cdem::SlopeWater model = scaled(1, 1), other = scaled(length, time);
+  CHECK(model.run_up() > 0.3);
+  CHECK(other.run_up() == length * model.run_up());
+  CHECK(other.run_down() == length * model.run_down());
+  for (double t = 0; t < 5; t += 0.37)
+    for (double x = 0.2; x < 5; x += 0.43) {
+      const cdem::WaterPoint a = model.at({x, 0, -0.4}, t),
+                             b = other.at(length * geom::Vec3(x, 0, -0.4), time * t);
+      REQUIRE(b.surface == length * a.surface);
+      REQUIRE(b.pressure == length * a.pressure);
+      REQUIRE(b.velocity == length / time * a.velocity);
+      REQUIRE(b.acceleration == a.acceleration);
+    }
+}
+
+TEST_CASE("a solution that would take more than 2 GB is refused, and the message names the cell", "[water]") {
+  cdem::SlopeGiven given = slope_of(2, 2); // 5.4 m of bed
+  given.cell = 1e-3;
+  given.duration = 10; // 5400 cells, 4.43 m/s over 1 mm: 44300 frames
+  CHECK_THROWS_WITH(cdem::SlopeWater(given), Catch::Contains("at most 5.02 s with this cell") &&
+                                                 Catch::Contains("a cell twice as large takes a quarter"));
 }
 
 TEST_CASE("the water on a slope does not depend on how long it is asked for", "[water]") {

@@ -157,7 +157,8 @@ TEST_CASE("a field with pressure and one with acceleration give the same force, 
   }
 }
 
-TEST_CASE("a body sinks with its weight less buoyancy over its mass and the added one", "[water][rigid]") {
+TEST_CASE("a body sinks with its sea_weight less buoyancy over its mass and the added one",
+          "[water][rigid]") {
   const bool rigid = GENERATE(false, true);
   const double ca = 0.67, rock_density = rock().density;
   System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))}));
@@ -242,7 +243,7 @@ TEST_CASE("a body that heaves far without drag keeps its energy, whatever the ti
   wood.density = 600;
   geom::TetMesh box = geom::box_mesh({1, 0.8, 0.5}, {1, 1, 1});
   for (Vec3& x : box.nodes)
-    x = rotation(Vec3::UnitY(), angle * degree) * (x - Vec3(0.5, 0.4, 0.5 * 600 / density)) +
+    x = rotation(Vec3::UnitY(), angle * degree) * (x - Vec3(0.5, 0.4, 0.5 * 600 / sea_density)) +
         0.1 * Vec3::UnitZ();
   System s(build({meshed("unit", box, {}, wood)}));
   cdem::set_rigid(s.model, s.state, {0});

@@ -160,6 +160,10 @@ TEST_CASE("waves enter a slope at its own level and depth, and weigh as the mode
   CHECK_THAT(error_of(slope("sea{ significant_height = 0.2, peak_period = 6, depth = 9 }", "")),
              Contains("waves = 9 m deep"));
   CHECK(error_of(slope(wave + "1 }", ", level = 1")) != ""); // 5 m deep then
+  CHECK_THAT(error_of(slope(wave + "0, current = 0.5 }", "")), Contains("waves = on a current of 0.5 m/s"));
+  CHECK_THAT(error_of(slope(wave + "0, direction = {-1, 0, 0} }", "")),
+             Contains("waves = of direction {-1, 0, 0}: must be of the direction of the slope, {1, 0, 0}"));
+  CHECK(error_of(slope(wave + "0, direction = {0, 2, 0} }", ", direction = {0, 1, 0}")).empty());
   const auto weighed = [](const std::string& water) {
     return error_of(column() + "model:gravity{ vector = {0, 0, -3.7} }\n" +
                     "model:flow{ water = cdem.water.uniform{ velocity = {0, 0, 0}, level = 1" + water +

@@ -251,6 +251,19 @@ TEST_CASE("waves for a flat bed over ground that rises are told of", "[lua]") {
   CHECK(the_warning(script(slope, "uniform{ velocity = {1, 0, 0}, level = 1 }"), words).empty());
 }
 
+TEST_CASE("waves that are short for the shallow water of a slope are told of", "[lua][water]") {
+  const auto script = [](const std::string& waves) {
+    return opening + "cdem.water.slope{ bed = { {0, -10}, {10, -10}, {40, 10} }, duration = 1, waves = " +
+           "cdem.water." + waves + " }\n";
+  };
+  const std::string words = "k d = ";
+  // omega^2 d / g = 4.471 = k d tanh(k d) gives k d = 4.473, and 1 / cosh of it .0228.
+  CHECK_THAT(the_warning(script("wave{ height = 0.01, period = 3, depth = 10, theory = 'airy' }"), words),
+             Contains("k d = 4.5 ") && Contains("have 0.023 of their velocity"));
+  CHECK(!the_warning(script("sea{ significant_height = 0.2, peak_period = 5, depth = 10 }"), words).empty());
+  CHECK(the_warning(script("wave{ height = 0.5, period = 9, depth = 10 }"), words).empty());
+}
+
 TEST_CASE("a check tells of a factor of safety that the fall of one small block decides", "[lua]") {
   const auto summary = [](const std::string& more) {
     Script script(column("{6, 5, 6}", "{6, 5, 6}") +

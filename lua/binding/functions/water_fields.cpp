@@ -8,18 +8,22 @@
 #include "libcdem/water/irregular_sea.hpp"
 #include "libcdem/water/plain_water.hpp"
 #include "libcdem/water/steady_wave.hpp"
+#include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace cdem::script {
 
 namespace {
 
 using geom::InputError;
+using geom::Vec3;
 
 constexpr double half_turn = 3.141592653589793;
+constexpr double same_direction = 0.02; // rad
 
 std::shared_ptr<WaterObject> holding(std::shared_ptr<const WaterField> field, std::string words) {
   auto object = std::make_shared<WaterObject>();
@@ -79,8 +83,8 @@ const Record<SlopeGiven> slope_given{
       &SlopeGiven::bed},
      {object_or_function("waves", "Water", "(time: number): number")
           .required()
-          .doc("that enter over the first point: waves of its level and depth, or the height over still "
-               "water (m)")},
+          .doc("that enter over the first point: waves of its level, depth and direction, much longer than "
+               "deep, or the height over still water (m)")},
      {number("duration", "s").above(0).required().doc("a run may not go on beyond it"),
       &SlopeGiven::duration},
      {level_field(), &SlopeGiven::level},
@@ -157,17 +161,26 @@ Value field(Session&, Object*, const Arguments& a) {
   return tried(holding(function_water(function_record.read(a)), "water of functions"));
 }
 
+Vec3 level_direction(const Vec3& given) {
+  return Vec3(given.x(), given.y(), 0).normalized();
+}
+
 Value wave(Session&, Object*, const Arguments& a) {
   const WaveGiven given = wave_given.read(a);
   const auto made = std::make_shared<WaveField>(given);
-  return holding(made, "waves of " + number_text(given.height) + " m and " +
-                           number_text(given.period.value_or(made->period())) + " s");
+  auto object = holding(made, "waves of " + number_text(given.height) + " m and " +
+                                  number_text(given.period.value_or(made->period())) + " s");
+  object->travelling = TravellingWaves{made->along, made->wave.wave_number, given.current};
+  return object;
 }
 
 Value sea(Session&, Object*, const Arguments& a) {
   const SeaGiven given = sea_given.read(a);
-  return holding(std::make_shared<IrregularSea>(given),
-                 "an irregular sea of " + number_text(given.significant_height) + " m");
+  auto object = holding(std::make_shared<IrregularSea>(given),
+                        "an irregular sea of " + number_text(given.significant_height) + " m");
+  object->travelling = TravellingWaves{level_direction(given.direction),
+                                       linear_wave_number(given.peak_period, given.depth, given.gravity), 0};
+  return object;
 }
 
 // Waves of another level or depth would enter with the flow and the celerity of other water.
@@ -185,13 +198,40 @@ void require_same_bed(const WaterField& waves, const SlopeGiven& slope) {
                      "give cdem.water.wave this depth and level, or the slope a bed as deep");
 }
 
+// One dimension has no waves that travel elsewhere, and a wall at its far end lets no current through.
+void require_along(const TravellingWaves& waves, const SlopeGiven& slope) {
+  const Vec3 along = level_direction(slope.direction);
+  if (!((waves.direction - along).norm() <= same_direction))
+    throw InputError("waves", "of direction " + geom::text(waves.direction),
+                     "of the direction of the slope, " + geom::text(along),
+                     "waves travel along its bed only");
+  if (waves.current != 0)
+    throw InputError("waves", "on a current of " + number_text(waves.current) + " m/s", "without a current",
+                     "the far end of the slope is closed");
+}
+
+// Shallow water is for waves much longer than the depth d: k d well below 1.
+void warn_of_short(const TravellingWaves& waves, const SlopeGiven& slope, Session& session) {
+  const double kd = waves.wave_number * (slope.level - slope.bed[0][1]);
+  if (kd > 1)
+    session.warn(fmt::format(
+        "cdem.water.slope: the waves have k d = {:.2g} (wave number times depth) at the first point of the "
+        "bed, and shallow water holds up to about 1. It moves alike from the surface to the bed, where these "
+        "waves have {:.2g} of their velocity at still water; let the bed begin in less water, or take longer "
+        "waves",
+        kd, 1 / std::cosh(kd)));
+}
+
 // The waves that enter over the foot of the slope, grown from nothing over the ramp.
-std::function<double(double)> entering(const Arguments& a, const SlopeGiven& slope) {
+std::function<double(double)> entering(Session& session, const Arguments& a, const SlopeGiven& slope) {
   std::function<double(double)> height;
   if (const auto waves = a.object<WaterObject>("waves")) {
     require_same_bed(*waves->field, slope);
-    const geom::Vec3 along = geom::Vec3(slope.direction.x(), slope.direction.y(), 0).normalized();
-    geom::Vec3 foot = slope.origin + slope.bed[0][0] * along;
+    if (waves->travelling) {
+      require_along(*waves->travelling, slope);
+      warn_of_short(*waves->travelling, slope, session);
+    }
+    Vec3 foot = slope.origin + slope.bed[0][0] * level_direction(slope.direction);
     foot.z() = slope.level;
     height = [field = waves->field, foot, level = slope.level](double time) {
       return field->at(foot, time).surface - level;
@@ -213,7 +253,7 @@ Value slope_water(Session& session, Object*, const Arguments& a) {
   SlopeGiven given = slope_given.read(a);
   given.cell = a.optional_number("cell").value_or((given.bed.back()[0] - given.bed[0][0]) / 300);
   if (geom::Vec3(given.direction.x(), given.direction.y(), 0).norm() > 0)
-    given.entering = entering(a, given);
+    given.entering = entering(session, a, given);
   auto made = std::make_shared<SlopeWater>(given);
   const double top = given.bed.back()[1];
   if (made->run_up() >= top)
@@ -283,7 +323,7 @@ const Record<WaterPoint> water_point{
       [](const WaterPoint& point) { return if_finite(point.surface); }}}};
 
 Table point_at(Session&, WaterObject& water, const Arguments& a) {
-  return water_point(water.field->at(a.vec3("place"), a.number("time")));
+  return water_point(seen_at(*water.field, a.vec3("place"), a.number("time")));
 }
 
 void bind_water_class(Module& m) {
@@ -332,7 +372,8 @@ void bind_water_fields(Module& m) {
         sea_given.fields(), sea, "cdem.Water");
   m.add("water.slope",
         "Waves that run up and down a slope: shallow water along the bed, computed once here. Velocity along "
-        "the bed and the free surface, hydrostatic pressure. A breaking wave is a bore, without jet and "
+        "the bed and the free surface, hydrostatic pressure. For waves with k d (wave number times depth) up "
+        "to about 1 at the first point. A breaking wave is a bore, without jet and "
         "without the pressure of its impact. A body beyond the ends of the bed ends the run with an error.",
         slope_given.fields(), slope_water, "cdem.Water");
   m.add(
@@ -340,7 +381,8 @@ void bind_water_fields(Module& m) {
       "Water that another program has computed, from VTK's files (.vti, .vtu, .vts, .vtr, legacy .vtk) at "
       "several times. It is put on a regular grid, and is linear between its points and times. The free "
       "surface is where the water fraction is 1/2. A run that asks beyond the box or the times of the files "
-      "ends with an error. One file alone is water that does not change.",
+      "ends with an error; above the box there may be air, where a fraction or a level tells. One file alone "
+      "is water that does not change.",
       std::vector<Field>{
           text("series").doc("a .pvd file, which lists files with their times; give it or files"),
           list("files", text_type()).doc("in the order of their times"),
