@@ -1,5 +1,7 @@
 #include "libcdem/load/flow.hpp"
 
+#include "libcdem/load/inner_shells.hpp"
+
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/opened_faces.hpp"
 #include "libcdem/state/places.hpp"
@@ -115,6 +117,10 @@ std::vector<int> flow_faces(const Model& model, const Flow& flow, const std::vec
                              }),
               faces.end());
   return faces;
+}
+
+std::vector<int> flow_faces(const Model& model, const Flow& flow) {
+  return flow_faces(model, flow, of_inner_shells(model));
 }
 
 } // namespace cdem

@@ -13,6 +13,7 @@ std::vector<FlowCorner> flow_corners(const Model&, const State&, const ResolvedF
 
 // Outer faces that a flow may meet, ascending: not those of cavities that a mesh closes. shells: of_inner_shells.
 std::vector<int> flow_faces(const Model&, const Flow&, const std::vector<int>& shells);
+std::vector<int> flow_faces(const Model&, const Flow&);
 
 // Outward, unit, of a face of a convex block where it stands now; a block of small strain hardly turns.
 geom::Vec3 present_normal(const Model&, const State&, const OuterFace&);
