@@ -48,7 +48,7 @@ void check_contacts(const Model& model, const State& state) {
   const auto triangle = [&](const char* field, std::int64_t t) {
     require_below(std::string("contacts.") + field, t, triangles);
   };
-  for (const Contact& c : state.contacts) {
+  const auto check = [&](const Contact& c) {
     if (!(c.at_rest >= 0))
       refuse_state("contacts.at_rest", std::to_string(c.at_rest) + " is out of range");
     if (c.kind == Contact::tets) {
@@ -57,7 +57,7 @@ void check_contacts(const Model& model, const State& state) {
       const int block = model.tet_block[c.source];
       if (model.tet_block[c.target] != block || !contact_joint(model, block, block))
         refuse_state("contacts", "of two tetrahedra that have no law of contact");
-      continue;
+      return;
     }
     if (c.kind > Contact::tets)
       refuse_state("contacts", "of no kind");
@@ -76,6 +76,15 @@ void check_contacts(const Model& model, const State& state) {
     if (!contact_joint(model, block(c.source / 3),
                        block(c.kind == Contact::spring ? c.target : c.target / 3)))
       refuse_state("contacts", "of two blocks that have no law of contact");
+  };
+  for (const Contact& c : state.contacts)
+    check(c);
+  for (const OpenedContact& opened : state.opened_contacts) {
+    if (opened.last.kind == Contact::tets)
+      refuse_state("opened_contacts", "of two tetrahedra");
+    check(opened.last);
+    if (!(opened.left > 0))
+      refuse_state("opened_contacts.left", std::to_string(opened.left) + " is out of range");
   }
 }
 

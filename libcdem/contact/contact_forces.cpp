@@ -98,11 +98,16 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   own.any_depth_of_broken = anew;
   // If a fragment has fallen apart, each contact stays with the part on which it acts.
   if (fragments_due) {
-    for (Contact& c : state.contacts)
+    const auto renew = [&](Contact& c) {
       if (c.kind == Contact::spring)
         c.fragment = own.movers.fragment_of_triangle[c.target];
-    std::sort(state.contacts.begin(), state.contacts.end(),
-              [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+    };
+    for (Contact& c : state.contacts)
+      renew(c);
+    for (OpenedContact& opened : state.opened_contacts)
+      renew(opened.last);
+    sort_by_key(state.contacts);
+    sort_by_key(state.opened_contacts);
   }
   const auto springs = static_cast<std::int64_t>(own.rows[Contact::spring].all.size()),
              edges = static_cast<std::int64_t>(own.rows[Contact::edge].all.size());

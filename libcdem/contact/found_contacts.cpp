@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/model/build/rigid_bodies.hpp"
@@ -205,6 +206,34 @@ void FoundContacts::add_losses() {
   }
 }
 
+// All ranks know all contacts of deformable bodies. Both lists are sorted.
+void FoundContacts::remember_opened() {
+  std::vector<OpenedContact>& all = state_.opened_contacts;
+  if (!work_.restitution) {
+    all.clear();
+    return;
+  }
+  const auto closed = [next = work_.now.begin(), this](const auto& c) mutable {
+    while (next != work_.now.end() && key(*next) < key(c))
+      ++next;
+    return next != work_.now.end() && key(*next) == key(c);
+  };
+  for (OpenedContact& opened : all)
+    opened.left -= work_.step;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [is_closed = closed](const OpenedContact& opened) mutable {
+                             return !(opened.left > 0) || is_closed(opened);
+                           }),
+            all.end());
+  for (auto [c, is_closed] = std::tuple(state_.contacts.begin(), closed); c != state_.contacts.end(); ++c)
+    if (c->kind != Contact::tets && c->at_rest > 0 && !is_told_by_sums(model_, *c) && !is_closed(*c)) {
+      const auto [a, b] = blocks_of(model_, *c);
+      if (const double frequency = frequency_on_contacts(model_, work_, a, b); frequency > 0)
+        all.push_back({*c, time_of_opening / frequency});
+    }
+  sort_by_key(all);
+}
+
 // A rank keeps the rows of a run of triangles. So the forces of all ranks, rank by rank, stand in the order of all rows,
 // and the contacts, of which each rank tells its own by key, stand by key.
 void FoundContacts::exchange() {
@@ -292,6 +321,7 @@ ContactSums FoundContacts::end() {
   add_losses();
   if (!work_.shared->alone())
     exchange();
+  remember_opened();
   add_tets();
   set_values();
   assert(std::is_sorted(work_.now.begin(), work_.now.end(), stands_before));

@@ -30,6 +30,7 @@ private:
   void add_on_rigid(const ContactForce&);
   RigidSums& touched(int rigid);
   void add_losses();
+  void remember_opened();
   void add_tets();
   void exchange();
   void set_values();

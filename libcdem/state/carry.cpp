@@ -234,7 +234,7 @@ private:
   }
 
   void carry_contacts() {
-    if (!map_.new_triangle || from_.contacts.empty())
+    if (!map_.new_triangle || (from_.contacts.empty() && from_.opened_contacts.empty()))
       return;
     const std::vector<int> pieces = map_.fragments_of_nodes(now_, to_);
     std::vector<int> new_tet; // by the old number; none: all stay
@@ -245,25 +245,29 @@ private:
           new_tet[(*map_.tet)[t]] = static_cast<int>(t);
     }
     const auto now = [&](int triangle) { return (*map_.new_triangle)[triangle]; };
-    for (Contact c : from_.contacts) {
-      if (c.kind == Contact::tets) {
-        carry_contact_of_tets(c, new_tet);
-        continue;
-      }
+    const auto carry_contact = [&](Contact& c) { // false: its triangles are gone
       const bool edge = c.kind == Contact::edge;
       const auto [old_source, old_target] = triangles_of(c);
       const int source = now(old_source), target = now(old_target);
       if (source < 0 || target < 0 || (edge && (now(c.beside) < 0 || now(c.fragment) < 0)))
-        continue;
+        return false;
       c.source = static_cast<std::uint32_t>(3 * source + static_cast<int>(c.source) % 3) & 0x3fffffffu;
       c.target = edge ? 3 * target + c.target % 3 : target;
       if (edge)
         c.beside = now(c.beside);
       c.fragment = edge ? now(c.fragment) : pieces[now_.surface.triangles[target].nodes[0]];
-      to_.contacts.push_back(c);
-    }
-    std::sort(to_.contacts.begin(), to_.contacts.end(),
-              [](const Contact& a, const Contact& b) { return key(a) < key(b); });
+      return true;
+    };
+    for (Contact c : from_.contacts)
+      if (c.kind == Contact::tets)
+        carry_contact_of_tets(c, new_tet);
+      else if (carry_contact(c))
+        to_.contacts.push_back(c);
+    for (OpenedContact opened : from_.opened_contacts)
+      if (carry_contact(opened.last))
+        to_.opened_contacts.push_back(opened);
+    sort_by_key(to_.contacts);
+    sort_by_key(to_.opened_contacts);
   }
 
   const Model& old_;

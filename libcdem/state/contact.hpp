@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace cdem {
 
@@ -28,6 +29,7 @@ struct Contact {
   double depth = 0;      // m, below the target's surface
   double damping = 0;    // N, what restitution adds to the spring's normal force
   double at_rest = 0;    // m, mean effective penetration over some ten oscillations; with restitution
+  double peak = 0;       // m, largest effective penetration; fades as that mean
   double felt_force = 0; // N, normal force that friction follows
   double stiffness = 0;  // N/m, of its normal spring (as_stiff_as); 0: that of its law
 
@@ -47,6 +49,20 @@ inline std::pair<int, int> triangles_of(const Contact& c) {
 inline auto key(const Contact& c) {
   return std::tuple(static_cast<int>(c.kind), static_cast<int>(c.source), c.fragment,
                     c.kind == Contact::edge ? c.target : 0);
+}
+
+// A contact of a deformable body that has opened a short time ago. If it closes again, it goes on with its means.
+struct OpenedContact {
+  Contact last;    // as it was before it opened
+  double left = 0; // s, until it is forgotten
+};
+inline auto key(const OpenedContact& opened) {
+  return key(opened.last);
+}
+
+template <class Kept>
+void sort_by_key(std::vector<Kept>& contacts) {
+  std::sort(contacts.begin(), contacts.end(), [](const Kept& a, const Kept& b) { return key(a) < key(b); });
 }
 
 } // namespace cdem

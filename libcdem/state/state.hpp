@@ -68,8 +68,8 @@ std::optional<std::size_t> entries_of(const FieldRow&, const Model&);
 // Whether entries of an array are nothing but doubles, which can be looked through for numbers that are none.
 template <class Entry>
 inline constexpr bool is_all_doubles =
-    !std::is_integral_v<Entry> && !std::is_same_v<Entry, Contact> && !std::is_same_v<Entry, FaceStateBatch> &&
-    !std::is_same_v<Entry, ExcavationForce>;
+    !std::is_integral_v<Entry> && !std::is_same_v<Entry, Contact> && !std::is_same_v<Entry, OpenedContact> &&
+    !std::is_same_v<Entry, FaceStateBatch> && !std::is_same_v<Entry, ExcavationForce>;
 // The first field in which something is not a number; null: there is none. Batches of tets are left out, as lanes without
 // a tet hold anything.
 const char* field_with_nan(const State&);

@@ -207,6 +207,27 @@ TEST_CASE(
   CHECK(impulse == Approx(of_force).epsilon(0.02));
 }
 
+TEST_CASE("contact law: a contact that bounces has the friction of its normal force in the mean",
+          "[contact][law]") {
+  const ContactLaw damped{1e8, 5e7, 0.5, 0.2};
+  const double deep = 1e-4, height = GENERATE(0.5, 1.5, 3.0, 10.0); // m; of the oscillation, over that
+  CAPTURE(height);
+  Contact c;
+  c.normal = Vec3::UnitZ();
+  double friction = 0, of_force = 0;
+  for (int i = 0; i < 60000; ++i) {
+    ContactMotion m = motion(deep * (1 + height * std::sin(2 * testing::pi * i / 60)), {deep, 0, 0});
+    m.part_of_rest = cdem::part_of_rest(2 * testing::pi / 60, 1);
+    m.deformable = true;
+    advance(c, damped, m);
+    if (i < 30000)
+      continue;
+    friction += c.shear.norm();
+    of_force += 0.5 * normal_force(c, damped);
+  }
+  CHECK(friction == Approx(of_force).epsilon(0.01));
+}
+
 TEST_CASE("contact law: a relaxation finds a contact at rest as deep as it is", "[contact][law]") {
   Contact c = pressed(1e-4);
   c.at_rest = 3e-5;

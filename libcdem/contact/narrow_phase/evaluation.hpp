@@ -65,10 +65,11 @@ private:
   struct SideMotion {
     geom::Vec3 velocity;
     double acceleration = 0, local_acceleration = 0;
-    double omega2 = 0; // 1/s2, of an oscillation of the block on all its contacts
   };
   SideMotion motion_of_side(const ContactTriangle& side, const int* nodes, const double* weights, int count,
                             double force) const;
+  // Gives a contact that closes again what is left of its means.
+  void go_on_if_opened(Contact&) const;
   // For restitution, of a contact before it advances. velocity: m/s, of its source past its target.
   void set_approach(const Contact&, const ContactLaw&, const ContactArms&, const geom::Vec3& velocity,
                     const ContactTriangle& from, const ContactTriangle& to, ContactMotion&) const;

@@ -1,6 +1,7 @@
 // A contact after the step: its motion, and what follows from it by the contact law.
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
+#include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
 #include <algorithm>
@@ -26,8 +27,7 @@ Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, c
     return {velocity}; // held: it does not turn round
   const Block& b = model_.blocks[block];
   const double mass = b.mass.volume * density;
-  SideMotion side_motion{velocity, work_.block_forces[block] / mass, b.rigid >= 0 ? 0 : force * local,
-                         work_.block_stiffness[block] / mass};
+  SideMotion side_motion{velocity, work_.block_forces[block] / mass, b.rigid >= 0 ? 0 : force * local};
   if (const BlockMotion& motion = work_.block_motion[block]; motion.whole)
     side_motion.velocity = motion.velocity + motion.spin.cross(place - motion.centroid);
   else
@@ -42,8 +42,6 @@ void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const Con
   const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 3, force),
                    target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
   motion.acceleration = source.acceleration + target.acceleration;
-  motion.part_of_rest = part_of_rest(work_.step, std::sqrt(source.omega2 + target.omega2));
-  motion.deformable = model_.blocks[from.block].rigid < 0 || model_.blocks[to.block].rigid < 0;
   const double rests = part_at_rest(c, motion), closing = -velocity.dot(motion.normal), // m/s
       approach = (target.velocity - source.velocity).dot(motion.normal);
   const double reversed = reversible_speed(c, motion);
@@ -53,6 +51,17 @@ void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const Con
                             ? 1
                             : part_held(law, closing, work_.step * motion.acceleration,
                                         work_.step * (source.local_acceleration + target.local_acceleration));
+}
+
+void Evaluation::go_on_if_opened(Contact& c) const {
+  const std::vector<OpenedContact>& all = state_.opened_contacts;
+  const auto opened = std::lower_bound(all.begin(), all.end(), key(c),
+                                       [](const auto& a, const auto& b) { return key(a) < b; });
+  if (opened == all.end() || key(*opened) != key(c))
+    return;
+  c.at_rest = opened->last.at_rest;
+  c.peak = opened->last.peak;
+  c.felt_force = opened->last.felt_force;
 }
 
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
@@ -71,6 +80,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       c.shear = old->shear;
       c.damping = old->damping;
       c.at_rest = old->at_rest;
+      c.peak = old->peak;
       c.felt_force = old->felt_force;
     }
     c.depth = own ? old->depth : 0;
@@ -80,8 +90,14 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       force.friction -= take_over(c, *old, law, motion);
     else if (old && old->target != c.target)
       force.friction += target_change_loss(*old, law, motion);
-    if (work_.restitution && law.damping_ratio > 0)
+    if (work_.restitution && law.damping_ratio > 0) {
+      motion.part_of_rest =
+          part_of_rest(work_.step, frequency_on_contacts(model_, work_, from.block, to.block));
+      motion.deformable = model_.blocks[from.block].rigid < 0 || model_.blocks[to.block].rigid < 0;
+      if (!old)
+        go_on_if_opened(c);
       set_approach(c, law, arms, velocity, from, to, motion);
+    }
     const ContactLoss loss = advance(c, law, motion);
     force.friction += loss.friction;
     force.damping = loss.damping;

@@ -196,6 +196,7 @@ double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& l
   c.damping = std::min(c.damping, law.damping_ratio * law.kn * pressed);
   c.felt_force *= std::sqrt(law.kn / before.kn);
   c.at_rest *= std::sqrt(before.kn / law.kn);
+  c.peak *= std::sqrt(before.kn / law.kn);
   if (before.ks > 0)
     c.shear *= std::sqrt(law.ks / before.ks);
   // contact_forces counts the old contact as ended; what it gave back in the step this one gives.

@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
+
 namespace cdem {
 namespace {
 
@@ -74,6 +76,16 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
     work.block_forces[model.rigid[i].block] = on_rigid[i].force.value();
     work.block_stiffness[model.rigid[i].block] = on_rigid[i].stiffness.value();
   }
+}
+
+double frequency_on_contacts(const Model& model, const ContactWork& work, int block_a, int block_b) {
+  double sum = 0; // 1/s2
+  for (const int block : {block_a, block_b})
+    if (work.motion.last_displacement[block] != 0) { // else it is held
+      const Block& b = model.blocks[block];
+      sum += work.block_stiffness[block] / (b.mass.volume * model.bodies[b.body].material.density);
+    }
+  return std::sqrt(sum);
 }
 
 void find_block_motions(const Model& model, const State& state, ContactWork& work, int threads) {

@@ -11,6 +11,9 @@ namespace cdem {
 // Writes ContactWork::block_forces and block_stiffness, of State::contacts.
 void sum_block_forces(const Model&, const State&, ContactWork&);
 
+// 1/s, omega of contact_law.hpp, of two blocks that touch each other, by these sums.
+double frequency_on_contacts(const Model&, const ContactWork&, int block_a, int block_b);
+
 // Writes ContactWork::block_motion. A block with broken faces has none: its fragments move by themselves.
 void find_block_motions(const Model&, const State&, ContactWork&, int threads);
 

@@ -28,11 +28,12 @@
 // A sliding contact does not feel a change of its normal force at once (Prakash 1998, J. Tribol. 120, 97-102; Cochard and
 // Rice 2000, J. Geophys. Res. 105, 25891-25907). If it did, friction would feed the vibrations of a deformable body that
 // slides, and they would take a part of its friction (Adams 1998, J. Appl. Mech. 65, 470-475). So where a body is deformable
-// and e < 1, friction follows a mean N of Fn + D:
+// and e < 1, friction follows a mean N of F = Fn + D:
 //
-//   dN / dt = (Fn + D - N) omega / (60 u^6),   u = min(1, 2 kn p_rest / max(N, kn p))
+//   dN / dt = (F - N) omega / (60 u^6),   u = min(1, 2 p_rest / p_peak)
 //
-// In an impact u is next to nothing, and N is the force itself.
+// p_peak is the largest p, and fades as p_rest does. In an impact, and as long as a body bounces higher than it rests, u is
+// next to nothing, and N is the force itself. A contact that opens for less than 2 pi / omega goes on with p_rest, p_peak and N.
 //
 // An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
 // a millimetre would throw a unit into the air.
@@ -117,6 +118,9 @@ inline double part_of(double speed, double reversed) {
   return std::abs(speed) < reversed ? speed / reversed : std::copysign(1.0, speed);
 }
 
+// A contact that opens for less than a whole oscillation, over 1 / omega, goes on with its means.
+constexpr double time_of_opening = 6.283185307179586;
+
 // Part of the damping force, up to 1, that turns nothing round. It takes no more than 0.15 of the speed of the nodes at the contact
 // in a step: the velocity that it follows is half a step old, and central differences are stable as long as the part is below
 // 2 - 2 safety^2. In a step, normal forces change the speed of the bodies by by_bodies, and this contact that of its nodes by
@@ -142,18 +146,20 @@ inline double reversible_speed(const Contact& c, const ContactMotion& m) {
                   part_at_rest(c, m) * std::sqrt(m.acceleration * pressed_now(c, m)));
 }
 
-// Part of a mean over some ten oscillations, twenty times as long as an impact, that a step takes. omega: 1/s.
+// Time of a mean over 1 / omega: some ten oscillations, twenty times as long as an impact.
+constexpr double time_of_rest = 60;
+// Part of it that a step takes. omega: 1/s.
 inline double part_of_rest(double step, double omega) {
-  return std::min(1.0, step * omega / 60);
+  return std::min(1.0, step * omega / time_of_rest);
 }
 
 // Advances the mean penetration of restitution.
 inline void advance_rest(Contact& c, const ContactMotion& m) {
   const double pressed = c.effective_penetration();
-  if (m.in_relaxation || !(pressed > 0))
-    c.at_rest = pressed;
-  else
-    c.at_rest += m.part_of_rest * (pressed - c.at_rest);
+  if (m.in_relaxation)
+    c.at_rest = c.peak = pressed;
+  c.at_rest += m.part_of_rest * (pressed - c.at_rest);
+  c.peak = std::max(pressed, c.peak - m.part_of_rest * c.peak);
 }
 
 // Advances the force of restitution of a contact that is as deep as it is now. closing: m, in the step. Returns what it
@@ -165,7 +171,6 @@ inline double advance_damping(Contact& c, const ContactLaw& law, const ContactMo
     c.damping = stiffness * std::clamp(q + closing, 0.0, m.approach * pressed);
   else
     c.damping = closing < 0 ? -stiffness * pressed * std::min(-m.approach, m.held_at_most) : 0;
-  advance_rest(c, m);
   return 0.5 * before * (before > 0 ? std::max(closing, -q) : closing) +
          0.5 * c.damping * (c.damping > 0 ? std::max(closing, -q) : closing) + stored -
          stored_by_damping(c, law);
@@ -176,16 +181,19 @@ inline double normal_force(const Contact& c, const ContactLaw& law) {
   return law.kn * c.effective_penetration() + c.damping;
 }
 
-// Advances the force that friction follows, of a contact that is as deep as it is now.
+// u of friction: 1 where a contact carries for long, next to nothing in an impact.
+inline double steadiness(const Contact& c) {
+  return c.peak > 2 * c.at_rest ? 2 * c.at_rest / c.peak : 1;
+}
+
+// Advances the force that friction follows, of a contact that is as deep as it is now. While it is open it keeps that force:
+// so the mean over the time in which it carries is that of the normal force, however much it bounces.
 inline void advance_felt_force(Contact& c, const ContactLaw& law, const ContactMotion& m) {
-  const double force = normal_force(c, law), before = c.felt_force;
-  c.felt_force = force;
-  if (!m.deformable || m.in_relaxation || !(before > 0) || !(c.effective_penetration() > 0))
-    return;
-  const double most = std::max(before, law.kn * c.effective_penetration()),
-               u = std::min(1.0, 2 * law.kn * c.at_rest / most), u3 = u * u * u, fades = u3 * u3;
-  if (m.part_of_rest < fades)
-    c.felt_force = before + m.part_of_rest / fades * (force - before);
+  const double force = normal_force(c, law), u = steadiness(c), u3 = u * u * u, fades = u3 * u3;
+  if (!m.deformable || m.in_relaxation || !(c.felt_force > 0) || m.part_of_rest >= fades)
+    c.felt_force = force;
+  else if (c.effective_penetration() > 0)
+    c.felt_force += m.part_of_rest / fades * (force - c.felt_force);
 }
 
 // Advances the contact. Returns the energy that friction and damping took: the work of shear force and damping by the
@@ -203,10 +211,13 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   c.normal = m.normal;
   c.depth = m.depth;
   ContactLoss loss;
-  if (law.damping_ratio > 0)
+  if (law.damping_ratio > 0) {
     loss.damping = advance_damping(c, law, m, -m.slid.dot(m.normal));
+    advance_rest(c, m);
+  }
   advance_felt_force(c, law, m);
-  const double trial = shear.norm(), limit = friction_limit(c.felt_force, law.tan_friction);
+  const bool carries = c.effective_penetration() > 0;
+  const double trial = shear.norm(), limit = carries ? friction_limit(c.felt_force, law.tan_friction) : 0;
   const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
   if (law.ks <= 0)
