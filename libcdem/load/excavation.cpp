@@ -21,7 +21,8 @@ void add_excavations(const State& state, ResolvedConditions& r) {
   for (const ExcavationForce& f : state.excavation) {
     const geom::Vec3 force(f.x, f.y, f.z);
     const int node = static_cast<int>(f.node);
-    if (f.duration == 0) { // one that has fallen stands where it fell: the order of a sum must not depend on the time
+    // One that has fallen stays among those that fall: the order of a sum must not depend on the time.
+    if (f.duration == 0) {
       add(r.external[node], f.after * force);
       continue;
     }

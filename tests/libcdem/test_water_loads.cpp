@@ -157,8 +157,7 @@ TEST_CASE("a field with pressure and one with acceleration give the same force, 
   }
 }
 
-TEST_CASE("a body sinks with its weight less buoyancy over its mass and the added one",
-          "[water][rigid]") {
+TEST_CASE("a body sinks with its weight less buoyancy over its mass and the added one", "[water][rigid]") {
   const bool rigid = GENERATE(false, true);
   const double ca = 0.67, rock_density = rock().density;
   System s(build({meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))}));
