@@ -13,7 +13,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double columns_per_height = 40;
-constexpr std::int64_t least_columns = 400; // of the middle: a square of H/2
+constexpr std::int64_t least_columns = 400; // a square of H/2
 constexpr double none = -std::numeric_limits<double>::infinity();
 
 double cross_in_plan(const Point& a, const Point& b) {
@@ -130,7 +130,6 @@ void cross_columns(const Columns& columns, const Surface& surface, const Mat3& f
 
 Columns middle_of(const std::vector<Point>& centroids, double height) {
   const std::vector<Point> hull = hull_of(centroids);
-  std::int64_t middle = 0; // columns at least H/2 inside
   Columns columns;
   if (hull.size() >= 3) {
     Point low = hull[0], high = hull[0];
@@ -141,21 +140,18 @@ Columns middle_of(const std::vector<Point>& centroids, double height) {
     columns.spacing = height / columns_per_height;
     // Half a step in, so that the columns are the middles of squares.
     columns.first = low + Point::Constant(0.5 * columns.spacing);
-    columns.nx = static_cast<int>(std::ceil((high - low).x() / columns.spacing));
-    columns.ny = static_cast<int>(std::ceil((high - low).y() / columns.spacing));
+    columns.nx = static_cast<int>((high - low).x() / columns.spacing);
+    columns.ny = static_cast<int>((high - low).y() / columns.spacing);
     columns.wanted.assign(static_cast<std::size_t>(columns.nx) * columns.ny, 0);
     for (int j = 0; j < columns.ny; ++j)
-      for (int i = 0; i < columns.nx; ++i) {
-        const Point place = columns.place(i, j);
-        columns.wanted[columns.at(i, j)] = inside(hull, place, 0);
-        middle += inside(hull, place, 0.5 * height) ? 1 : 0;
-      }
+      for (int i = 0; i < columns.nx; ++i)
+        columns.wanted[columns.at(i, j)] = inside(hull, columns.place(i, j), 0.5 * height);
   }
-  if (middle < least_columns)
-    throw InputError(
-        "the pile has no middle: hardly any place is half a unit's height inside the centroids of its " +
-        counted(centroids.size(), "unit", "units") +
-        "; take at least three rows of three, or more where they lie close");
+  if (std::count(columns.wanted.begin(), columns.wanted.end(), 1) < least_columns)
+    throw InputError("the pile has no middle: porosity is measured a unit's height away from its edge, and "
+                     "its " +
+                     counted(centroids.size(), "unit reaches", "units reach") +
+                     " no further; take at least three rows of three, or more where they lie close");
   columns.ground.assign(columns.wanted.size(), none);
   columns.faces.resize(columns.wanted.size());
   return columns;

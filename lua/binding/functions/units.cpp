@@ -174,7 +174,7 @@ Value furthest(ModelObject& model, const Arguments& a, double sign) {
 
 void bind_units(Module& m) {
   RecordType measured{"PileMeasures",
-                      "How densely units lie on a slope, between the centroids of the outer rows.",
+                      "How densely units lie on a slope, away from the edge of the pile by about one unit.",
                       layer_record.fields() + RecordType(touching_record).fields};
   m.records.push_back(std::move(measured));
   m.records.push_back(unit_contacts_record);
