@@ -306,7 +306,7 @@ void Simulation::check_run(double begin, double end) {
     ask(pressure.volume);
   }
   if (c.gravity) {
-    ask(amplitude_of_gravity(c));
+    ask(amplitude_of_gravity(impl_->model, c));
     ask(c.gravity->turning);
   }
   impl_->warnings.look_for_dry_flows(begin, end);

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace cdem {
 namespace {
@@ -157,7 +158,7 @@ void load(ResolvedConditions& r, Pattern&& pattern, const Amplitude& amplitude) 
 void add_gravity(const Model& model, const Conditions& conditions, ResolvedConditions& r) {
   const Gravity& gravity = *conditions.gravity;
   if (!gravity.turning) {
-    load(r, gravity_pattern(model, gravity, gravity.acceleration), amplitude_of_gravity(conditions));
+    load(r, gravity_pattern(model, gravity, gravity.acceleration), amplitude_of_gravity(model, conditions));
     return;
   }
   for (int axis = 0; axis < 3; ++axis)
@@ -232,15 +233,35 @@ std::vector<double> volume_around_nodes(const Model& model, const Block& block) 
   return volume;
 }
 
-// Which bodies the water accelerates as wholes, what their cavities are, and how long the answers of the field hold.
+// Per block, the lowest block of those of its body that interfaces join with it: what one unit of many is made of.
+std::vector<int> joined_blocks(const Model& model) {
+  std::vector<int> first(model.blocks.size());
+  std::iota(first.begin(), first.end(), 0);
+  const auto root = [&](int b) {
+    while (first[b] != b)
+      b = first[b] = first[first[b]];
+    return b;
+  };
+  for (const Interface& interface : model.interfaces)
+    if (model.blocks[interface.block_a].body == model.blocks[interface.block_b].body) {
+      const int a = root(interface.block_a), b = root(interface.block_b);
+      first[std::max(a, b)] = std::min(a, b);
+    }
+  for (std::size_t b = 0; b < first.size(); ++b)
+    first[b] = root(static_cast<int>(b));
+  return first;
+}
+
+// Which units the water accelerates as wholes, what their cavities are, and how long the answers of the field hold.
 // shells: of_inner_shells.
 void find_bodies_in_water(const Model& model, const std::vector<int>& shells, ResolvedFlow& flow) {
-  std::vector<int> missing(model.bodies.size(), 0); // outer faces
+  const std::vector<int> unit = joined_blocks(model);
+  std::vector<int> missing(model.blocks.size(), 0); // outer faces, of each unit at its lowest block
   for (const OuterFace& face : model.outer_faces)
     if (face.boundary < 0 || shells[face.boundary] == 0)
-      ++missing[model.blocks[face.block].body];
+      ++missing[unit[face.block]];
   for (const int face : flow.faces)
-    --missing[model.blocks[model.outer_faces[face].block].body];
+    --missing[unit[model.outer_faces[face].block]];
   std::map<int, std::map<int, std::vector<geom::Triangle>>> cavities; // by block and shell
   for (std::size_t t = 0; t < shells.size(); ++t)
     if (shells[t] != 0)
@@ -249,7 +270,7 @@ void find_bodies_in_water(const Model& model, const std::vector<int>& shells, Re
   flow.longest = of_period * flow.water->shortest_period();
   for (BlockInWater& in_water : flow.in_water) {
     const Block& block = model.blocks[in_water.asked.block];
-    in_water.inertia = missing[block.body] == 0;
+    in_water.inertia = missing[unit[in_water.asked.block]] == 0;
     if (in_water.inertia)
       in_water.volume = volume_around_nodes(model, block);
     if (const auto found = cavities.find(in_water.asked.block); found != cavities.end())
@@ -352,10 +373,11 @@ void require_one_gravity(const Conditions& conditions) {
 
 } // namespace
 
-Amplitude amplitude_of_gravity(const Conditions& conditions) {
+Amplitude amplitude_of_gravity(const Model& model, const Conditions& conditions) {
   const Amplitude& amplitude = conditions.gravity->amplitude;
-  const bool floats = std::any_of(conditions.flows.begin(), conditions.flows.end(),
-                                  [](const Flow& flow) { return flow.water && flow.water->has_pressure(); });
+  const bool floats = std::any_of(conditions.flows.begin(), conditions.flows.end(), [&](const Flow& flow) {
+    return flow.water && flow.water->has_pressure() && !is_gone(model, flow);
+  });
   if (!amplitude || !floats)
     return amplitude;
   return [amplitude](double time) {

@@ -150,7 +150,7 @@ void each_node(const ResolvedConditions& r, Range nodes, const Free& free, const
 ResolvedConditions resolve(const Model&, const State&, const Conditions&);
 
 // The factor of gravity at a time. Throws geom::InputError where it is not 1 beside water whose pressure carries bodies. Empty: 1.
-Amplitude amplitude_of_gravity(const Conditions&);
+Amplitude amplitude_of_gravity(const Model&, const Conditions&);
 
 // The patterns of flows for where the faces are now; fields of water are asked again.
 void refresh_flows(const Model&, const State&, ResolvedConditions&);

@@ -228,11 +228,11 @@ private:
     };
     const auto& parts = face.node_area; // of all nodes of the face, ascending
     thread_local std::vector<Whole> whole;
-    whole.assign(parts.size(), {});
+    whole.assign(parts.size() + 1, {}); // the last for nodes that a saved file leaves out
     const auto of = [&](int node) -> Whole& {
       const auto found = std::lower_bound(parts.begin(), parts.end(), node,
                                           [](const auto& part, int n) { return part.first < n; });
-      return whole[found - parts.begin()];
+      return found != parts.end() && found->first == node ? whole[found - parts.begin()] : whole.back();
     };
     for (const geom::Triangle& nodes : fan.triangles) {
       const std::array<const WaterHere*, 3> corner{&at(nodes[0]), &at(nodes[1]), &at(nodes[2])};

@@ -178,7 +178,7 @@ public:
     stage_.sample_start();
     if (scaled_.on())
       stage_.scale_masses = [this] { scaled_.scale(); };
-    else if (state_.moving_mass.empty()) // otherwise it goes on
+    else if (!context.from || state_.moving_mass.empty()) // otherwise it goes on
       stage_.carry_water(stage_.work.resolved.water_mass);
   }
 

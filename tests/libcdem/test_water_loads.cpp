@@ -415,6 +415,24 @@ TEST_CASE("accelerated water takes a body once, and no body of which it meets a 
         1e-6 * sea_density);
   CHECK(force_on({{"y-"}}).isZero(0));
   CHECK(force_on({{"x-"}, {"x+"}}).isZero(0));
+  // A unit of a body of two is a whole.
+  geom::TetMesh two = geom::box_mesh({1, 1, 1}, {1, 1, 1});
+  const auto nodes = static_cast<int>(two.nodes.size()), tets = static_cast<int>(two.tets.size());
+  for (int i = 0; i < nodes; ++i)
+    two.nodes.push_back(two.nodes[i] + Vec3(3, 0, 0));
+  for (int t = 0; t < tets; ++t) {
+    geom::Tet tet = two.tets[t];
+    for (int& node : tet)
+      node += nodes;
+    two.tets.push_back(tet);
+  }
+  two.region.assign(two.tets.size(), 0);
+  System units(build({meshed("units", two)}));
+  units.state.time = 1;
+  cdem::Flow one = in_water(field, 0, 0.5);
+  one.on = {cdem::Selection::of_units("units", {2})};
+  units.conditions.flows = {one};
+  CHECK((wrench(units).force - 1.5 * sea_density * acceleration).norm() < 1e-6 * sea_density);
   cdem::ModelSpec spec;
   spec.bodies = {meshed("unit", geom::box_mesh({1, 1, 1}, {2, 2, 2}))};
   cdem::Simulation given(spec, 1, nullptr);
