@@ -143,7 +143,9 @@ std::string StageSequence::save() const {
   archive_const(a, ends);
   if (ends) {
     write(a, of_.last_good);
-    archive_const(a, *of_.end_of_run);
+    SimulatedModel::End end = *of_.end_of_run;
+    end.with_other_conditions = end.with_other_conditions || restart_point_; // last_good is a start then
+    archive_const(a, end);
   }
   archive_const(a, of_.last_residual);
   archive_const(a, in_stage_ ? of_.stage - 1 : of_.stage);
