@@ -82,7 +82,7 @@ void check_slope(const SlopeGiven& g) {
 
 SlopeWater::SlopeWater(const SlopeGiven& given) : given_(given) {
   check_slope(given_);
-  frame_ = given_.duration / std::ceil(given_.duration / frame_of(given_)); // waves may be known no longer
+  frame_ = frame_of(given_);
   along_ = geom::Vec3(given_.direction.x(), given_.direction.y(), 0).normalized();
   const auto n =
       static_cast<std::size_t>(std::ceil((given_.bed.back()[0] - given_.bed[0][0]) / given_.cell - 1e-9));
@@ -104,7 +104,7 @@ SlopeWater::SlopeWater(const SlopeGiven& given) : given_(given) {
 }
 
 void SlopeWater::compute(ShallowWater& water) {
-  const int frames = static_cast<int>(std::round(given_.duration / frame_));
+  const int frames = static_cast<int>(std::ceil(given_.duration / frame_));
   keep(water);
   for (int i = 0; i < frames; ++i) {
     double left = frame_;
