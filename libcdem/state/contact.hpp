@@ -53,7 +53,7 @@ inline auto key(const Contact& c) {
 
 // A contact of a deformable body that has opened a short time ago. If it closes again, it goes on with its means.
 struct OpenedContact {
-  Contact last;    // as it was before it opened
+  Contact last{};  // as it was before it opened
   double left = 0; // s, until it is forgotten
 };
 inline auto key(const OpenedContact& opened) {

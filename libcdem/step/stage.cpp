@@ -83,7 +83,8 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away)
     : Stage(context, std::move(kind), run_away,
             context.kept ? std::exchange(*context.kept, nullptr) : nullptr) {}
 
-Stage::Stage(const StageContext& context, std::string kind, double run_away, std::shared_ptr<KeptWork> kept)
+Stage::Stage(const StageContext& context, std::string kind, double run_away,
+             const std::shared_ptr<KeptWork>& kept)
     : Stage(context, std::move(kind), run_away, kept.get(),
             context.from && kept && kept->end ? &*kept->end : nullptr) {}
 

@@ -98,7 +98,8 @@ public:
 private:
   friend class SynchronisedView;
 
-  Stage(const StageContext& context, std::string kind, double run_away, std::shared_ptr<KeptWork> kept);
+  Stage(const StageContext& context, std::string kind, double run_away,
+        const std::shared_ptr<KeptWork>& kept);
   // end: of `kept`, from which the stage goes on; null: from none. kept: null where nothing is.
   Stage(const StageContext& context, std::string kind, double run_away, KeptWork* kept, KeptWork::End* end);
 

@@ -353,7 +353,7 @@ WaterPoint RecordedWater::at(const geom::Vec3& place, double time) const {
     part = 0;
   }
   WaterPoint point;
-  const auto mix = [part](const auto& early, const auto& late) {
+  const auto mix = [part = part](const auto& early, const auto& late) {
     return std::decay_t<decltype(early)>(early + part * (late - early));
   };
   point.surface = std::isfinite(a.layer.top) ? mix(a.layer.top, b.layer.top) : a.layer.top;
