@@ -105,7 +105,7 @@ Eigen::Vector4d wet_part(const std::array<TetCorner, 4>& corners, double volume)
   return 0.25 * volume * (corners[0].weight + corners[1].weight + corners[2].weight + corners[3].weight);
 }
 
-// What a block displaces: its own volume and that of the cavities that it closes, as tetrahedra.
+// The volume that a block displaces: its own and that of the cavities that it closes, as tetrahedra.
 class DisplacedVolume {
 public:
   DisplacedVolume(const Model& model, const BlockInWater& in_water)
@@ -220,7 +220,7 @@ public:
   }
 
 private:
-  // Others cover the rest. What is known of the part is the integral a of the shape function of each node. Under water its
+  // Others cover the rest. The integral a of the shape function of each node is known of the part. Under water its
   // pressure is a p, exact in sum; where the surface cuts the face the node takes the share of what acts on the whole one.
   void part_of_face(const OuterFace& face, const FaceFan& fan, bool drag) {
     struct Whole {

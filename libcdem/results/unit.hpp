@@ -5,7 +5,7 @@
 
 namespace cdem {
 
-// Of a unit that has broken, centroid and motion are those that its largest piece gives it.
+// The largest piece of a broken unit gives its centroid and motion.
 struct Unit {
   int block = 0;                            // of the model
   geom::Vec3 centroid = geom::Vec3::Zero(); // m, now

@@ -10,7 +10,7 @@
 namespace cdem {
 
 struct KeptWork {
-  // Of a run, for one that goes on from its end.
+  // The end of a run, for one that goes on from it.
   struct End {
     BondWork bond;
     ContactWork contact;

@@ -52,7 +52,7 @@ Part share(const Model& model, const Partition& of) {
   return part;
 }
 
-// Of eight tets at once. The padding of a last batch counts too: where this is false, tets are looked at one by one.
+// Looks at eight tets at once. The padding of a last batch counts too: where this is false, tets are looked at one by one.
 bool is_finite(const StressBatch& stress) {
   double sums[lanes] = {};
   for (const auto& component : stress.component)

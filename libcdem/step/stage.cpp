@@ -397,7 +397,7 @@ StageResult Stage::finish() {
           context_.log.broken_shear - broken_.shear_before, progress_.wall_time()};
 }
 
-// Of several ranks, each would keep its share, and shares change.
+// Several ranks would each keep a share, and shares change.
 void Stage::keep_work() {
   if (!context_.kept || !work.shared->alone())
     return;

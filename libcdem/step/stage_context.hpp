@@ -35,7 +35,7 @@ struct StageContext {
   std::function<void(const std::vector<int>&)> renumbered{};
   std::shared_ptr<SeenForces> seen = nobody_looks(); // filled while somebody looks at the stage
   Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
-  // Of the stage before, taken by this one; then of this one, written where it ends. Null: nothing is kept.
+  // The stage before wrote it, and this one takes it and writes its own where it ends. Null: nothing is kept.
   std::shared_ptr<KeptWork>* kept = nullptr;
   // The end of the run before, where only conditions, strengths or the choice of the step are others since: the stage begins
   // anew, and what its first step takes from springs is counted from the springs of there.

@@ -81,7 +81,7 @@ TEST_CASE("a run that goes on takes the contacts of the run before, and any stag
     fall->conditions.gravity->acceleration *= 2;
   run(5, false);
   CHECK(one.kept->tet_contacts == pairs);
-  // Of another model nothing is known.
+  // Nothing is known of another model.
   for (Fall* fall : {&one, &other})
     fall->model.node_mass.back() *= 2;
   run(5, false);
