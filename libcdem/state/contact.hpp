@@ -26,12 +26,13 @@ struct Contact {
   geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
   // m, depth at which it carries nothing: it was found that deep.
   double reference_penetration = 0;
-  double depth = 0;      // m, below the target's surface
-  double damping = 0;    // N, what restitution adds to the spring's normal force
-  double at_rest = 0;    // m, mean effective penetration over some ten oscillations; with restitution
-  double peak = 0;       // m, largest effective penetration; fades as that mean
-  double felt_force = 0; // N, normal force that friction follows
-  double stiffness = 0;  // N/m, of its normal spring (as_stiff_as); 0: that of its law
+  double depth = 0;       // m, below the target's surface
+  double damping = 0;     // N, what restitution adds to the spring's normal force
+  double at_rest = 0;     // m, mean effective penetration over some ten oscillations; with restitution
+  double peak = 0;        // m, largest effective penetration; fades as that mean
+  double usual_force = 0; // N, mean of its normal force over some ten oscillations
+  double felt_force = 0;  // N, the same over a third of one
+  double stiffness = 0;   // N/m, of its normal spring (as_stiff_as); 0: that of its law
 
   explicit Contact(Kind of = spring, int from = 0)
       : kind(of & 3u), source(static_cast<std::uint32_t>(from) & 0x3fffffffu) {}

@@ -162,3 +162,32 @@ TEST_CASE("bolts in a script", "[lua][bolts]") {
   CHECK_THAT(Script(head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 0.5}, area = 490 }").printed(),
              Contains("bolts: area = 490: is it in m2? A bar of 25 mm"));
 }
+
+// Newmark's block on a ground that shakes up and down. A friction that lags behind its normal force holds it altogether.
+TEST_CASE("a deformable block slides while a ground that shakes upwards takes weight off it", "[lua][contact]") {
+  Script script(R"(
+local cdem = require "cdem"
+local g, frequency, cycles, pull = 9.81, 50, 4, 0.45
+local stone = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
+local floor = cdem.box_mesh{ size = {8, 4, 0.5}, divisions = {8, 4, 1}, origin = {-3, -2, -0.5} }
+local block = cdem.box_mesh{ size = {1, 1, 0.5}, divisions = {2, 2, 1}, origin = {0.03, 0.02, 0} }
+local m = cdem.model{ bodies = { { name = "floor", shape = floor, material = stone, element = "rigid" },
+                                 { name = "block", shape = block, material = stone } },
+                      contacts = { { "floor", "block", cdem.coulomb{ friction_angle = 30, restitution = 0.5 } } } }
+m:fix{ on = "floor" }
+m:gravity{ vector = {pull * g, 0, -g} }
+m:relax{}
+local begin, start, omega = m.time, m:mean("displacement.x", "block"), 2 * math.pi * frequency
+m:fix{ on = "floor", velocity = {0, 0, 0.5 * g / omega}, amplitude = function(t) return math.cos(omega * (t - begin)) - 1 end }
+m:run{ duration = cycles / frequency }
+local v, x, dt = 0, 0, 1 / frequency / 2000
+for i = 1, cycles * 2000 do
+  local a = pull * g - math.tan(math.rad(30)) * (g - 0.5 * g * math.sin(omega * i * dt))
+  if v > 0 or a > 0 then v = math.max(0, v + a * dt) end
+  x = x + v * dt
+end
+local slid = m:mean("displacement.x", "block") - start
+assert(math.abs(slid / x - 1) < 0.1, "slid " .. slid .. " m where a rigid block slides " .. x)
+)");
+  script.run();
+}

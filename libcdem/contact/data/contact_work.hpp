@@ -93,7 +93,9 @@ struct ContactWork {
   bool restitution = false; // some contact law has one below 1, and the stage wants it
   std::vector<double>
       block_forces; // N, per block, of all springs that pressed on it before the step; with restitution
-  std::vector<double> block_stiffness;   // N/m, per block, of the same springs; with restitution
+  std::vector<double> block_stiffness; // N/m, per block, of the same springs; with restitution
+  // N, per block that deforms: sums of the forces of that name of these contacts.
+  std::vector<double> block_felt, block_usual;
   std::vector<BlockMotion> block_motion; // per block, of those that touched before the step; with restitution
 
   std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time

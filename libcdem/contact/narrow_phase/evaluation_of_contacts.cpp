@@ -61,6 +61,7 @@ void Evaluation::go_on_if_opened(Contact& c) const {
     return;
   c.at_rest = opened->last.at_rest;
   c.peak = opened->last.peak;
+  c.usual_force = opened->last.usual_force;
   c.felt_force = opened->last.felt_force;
 }
 
@@ -81,6 +82,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       c.damping = old->damping;
       c.at_rest = old->at_rest;
       c.peak = old->peak;
+      c.usual_force = old->usual_force;
       c.felt_force = old->felt_force;
     }
     c.depth = own ? old->depth : 0;
@@ -94,6 +96,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       motion.part_of_rest =
           part_of_rest(work_.step, frequency_on_contacts(model_, work_, from.block, to.block));
       motion.deformable = model_.blocks[from.block].rigid < 0 || model_.blocks[to.block].rigid < 0;
+      motion.felt_over_usual = felt_over_usual(model_, work_, from.block, to.block);
       if (!old)
         go_on_if_opened(c);
       set_approach(c, law, arms, velocity, from, to, motion);

@@ -195,6 +195,7 @@ double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& l
   c.reference_penetration = depth - pressed;
   c.damping = std::min(c.damping, law.damping_ratio * law.kn * pressed);
   c.felt_force *= std::sqrt(law.kn / before.kn);
+  c.usual_force *= std::sqrt(law.kn / before.kn);
   c.at_rest *= std::sqrt(before.kn / law.kn);
   c.peak *= std::sqrt(before.kn / law.kn);
   if (before.ks > 0)

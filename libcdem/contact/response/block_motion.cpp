@@ -7,10 +7,10 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
-namespace {
 
 BlockMotion motion_of(const Model& model, const State& state, const Block& block) {
   BlockMotion motion;
@@ -34,11 +34,11 @@ BlockMotion motion_of(const Model& model, const State& state, const Block& block
   return motion;
 }
 
-} // namespace
-
 void sum_block_forces(const Model& model, const State& state, ContactWork& work) {
   work.block_forces.assign(model.blocks.size(), 0.0);
   work.block_stiffness.assign(model.blocks.size(), 0.0);
+  work.block_felt.assign(model.blocks.size(), 0.0);
+  work.block_usual.assign(model.blocks.size(), 0.0);
   struct Sums {
     ExactSum force, stiffness;
   };
@@ -53,6 +53,10 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
       if (const int rigid = model.blocks[block].rigid; rigid < 0) {
         work.block_forces[block] += force;
         work.block_stiffness[block] += stiffness;
+        if (stiffness > 0) {
+          work.block_felt[block] += c.felt_force;
+          work.block_usual[block] += c.usual_force;
+        }
       } else if (keeps(model, work, c)) {
         on_rigid[rigid].force.add(force);
         on_rigid[rigid].stiffness.add(stiffness);
@@ -86,6 +90,16 @@ double frequency_on_contacts(const Model& model, const ContactWork& work, int bl
       sum += work.block_stiffness[block] / (b.mass.volume * model.bodies[b.body].material.density);
     }
   return std::sqrt(sum);
+}
+
+double felt_over_usual(const Model& model, const ContactWork& work, int block_a, int block_b) {
+  double felt = 0, usual = 0;
+  for (const int block : {block_a, block_b})
+    if (model.blocks[block].rigid < 0 && !work.movers.broken[block]) {
+      felt += work.block_felt[block];
+      usual += work.block_usual[block];
+    }
+  return usual > 0 ? felt / usual : 1;
 }
 
 void find_block_motions(const Model& model, const State& state, ContactWork& work, int threads) {

@@ -2,7 +2,7 @@
 //
 //   Fn = kn (d - d0)+            d depth below the target's surface; d0 = 0, or the depth at which it was found
 //   Fs = R Fs - ks du_s          R turns it with the normal, and about it with the two faces; du_s slip of this step
-//   |Fs| <= N tan(phi)          N the normal force; of deformable bodies with restitution a mean of it, see below
+//   |Fs| <= N tan(phi)          N the normal force; of deformable bodies with restitution the contact's usual share, see below
 //
 // With a coefficient of restitution e < 1 the contact returns the fraction e^2 of the energy 1/2 k d^2 that goes into it,
 // k = 2 kn / (1 + e^2). Beside the spring kn acts a force D, with r = (1 - e^2) / (1 + e^2):
@@ -28,12 +28,16 @@
 // A sliding contact does not feel a change of its normal force at once (Prakash 1998, J. Tribol. 120, 97-102; Cochard and
 // Rice 2000, J. Geophys. Res. 105, 25891-25907). If it did, friction would feed the vibrations of a deformable body that
 // slides, and they would take a part of its friction (Adams 1998, J. Appl. Mech. 65, 470-475). So where a body is deformable
-// and e < 1, friction follows a mean N of F = Fn + D:
+// and e < 1, friction follows a usual share of what the bodies press with, by two means M and P of F = Fn + D:
 //
-//   dN / dt = (F - N) omega / (60 u^6),   u = min(1, 2 p_rest / p_peak)
+//   N = M (sum of P) / (sum of M),   u = min(1, 2 p_rest / p_peak)
+//   dM / dt = (F - M) omega / (60 u^6),   dP / dt = (F - P) omega / (2 u^6)
+//
+// The sums go over the contacts of both bodies before the step. So each contact has its mean share, and all together have the friction
+// of the whole normal force of a third of an oscillation before: on a ground that shakes, or when a load comes on at once.
 //
 // p_peak is the largest p, and fades as p_rest does. In an impact, and as long as a body bounces higher than it rests, u is
-// next to nothing, and N is the force itself. A contact that opens for less than 2 pi / omega goes on with p_rest, p_peak and N.
+// next to nothing, and M and P are F itself. A contact that opens for less than 2 pi / omega goes on with p_rest, p_peak, M and P.
 //
 // An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
 // a millimetre would throw a unit into the air.
@@ -75,6 +79,7 @@ struct ContactMotion {
   double held_at_most = 0;                // part of the damping force that may act, part_held
   double part_of_rest = 0;                // part of a mean over the time of rest that the step takes
   bool deformable = false;                // one of its two bodies is, and restitution knows them
+  double felt_over_usual = 1;             // sums of these forces of all contacts of its bodies
   bool in_relaxation = false;             // its steps are no times, and it finds the contact at rest
 };
 
@@ -147,7 +152,7 @@ inline double reversible_speed(const Contact& c, const ContactMotion& m) {
 }
 
 // Time of a mean over 1 / omega: some ten oscillations, twenty times as long as an impact.
-constexpr double time_of_rest = 60;
+constexpr double time_of_rest = 60, time_of_feeling = 2;
 // Part of it that a step takes. omega: 1/s.
 inline double part_of_rest(double step, double omega) {
   return std::min(1.0, step * omega / time_of_rest);
@@ -190,10 +195,13 @@ inline double steadiness(const Contact& c) {
 // so the mean over the time in which it carries is that of the normal force, however much it bounces.
 inline void advance_felt_force(Contact& c, const ContactLaw& law, const ContactMotion& m) {
   const double force = normal_force(c, law), u = steadiness(c), u3 = u * u * u, fades = u3 * u3;
-  if (!m.deformable || m.in_relaxation || !(c.felt_force > 0) || m.part_of_rest >= fades)
-    c.felt_force = force;
-  else if (c.effective_penetration() > 0)
-    c.felt_force += m.part_of_rest / fades * (force - c.felt_force);
+  if (!m.deformable || m.in_relaxation || !(c.usual_force > 0) || m.part_of_rest >= fades)
+    c.usual_force = c.felt_force = force;
+  else if (c.effective_penetration() > 0) {
+    const double part = m.part_of_rest / fades;
+    c.usual_force += part * (force - c.usual_force);
+    c.felt_force += std::min(1.0, part * time_of_rest / time_of_feeling) * (force - c.felt_force);
+  }
 }
 
 // Advances the contact. Returns the energy that friction and damping took: the work of shear force and damping by the
@@ -217,7 +225,8 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   }
   advance_felt_force(c, law, m);
   const bool carries = c.effective_penetration() > 0;
-  const double trial = shear.norm(), limit = carries ? friction_limit(c.felt_force, law.tan_friction) : 0;
+  const double trial = shear.norm(),
+               limit = carries ? friction_limit(c.usual_force * m.felt_over_usual, law.tan_friction) : 0;
   const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
   if (law.ks <= 0)
