@@ -7,6 +7,7 @@
 #include "libcdem/results/log.hpp"
 #include "libcdem/step/observer.hpp"
 #include "libcdem/step/restart_point.hpp"
+#include "libcdem/step/sliding_friction.hpp"
 #include "libcdem/step/stage_context.hpp"
 
 #include <array>
@@ -23,6 +24,7 @@ struct SimulatedModel {
   State last_good;
   Conditions conditions;
   RunLog log;
+  SlidingFriction sliding; // in this process: a script that is resumed counts anew
   std::shared_ptr<Observer> observer;
   int threads = 1;
   int stage = 0;            // solving calls so far, with the one that runs

@@ -42,6 +42,8 @@
 
 namespace cdem {
 
+struct SlidingFriction; // step/sliding_friction.hpp
+
 // The law of an interface whose centroid lies there (undeformed, m).
 using JointAt = std::function<Joint(const geom::Vec3&)>;
 
@@ -166,6 +168,7 @@ public:
   const State& state() const;
   const Conditions& conditions() const;
   const RunLog& log() const;
+  const SlidingFriction& sliding() const;
 
   // Results.
   ModelCounts counts() const;

@@ -35,6 +35,10 @@ const RunLog& Simulation::log() const {
   return impl_->log;
 }
 
+const SlidingFriction& Simulation::sliding() const {
+  return impl_->sliding;
+}
+
 std::vector<Fragment> Simulation::fragments() const {
   return cdem::fragments(impl_->model, impl_->whole(),
                          resolve(impl_->model, impl_->whole(), impl_->conditions));

@@ -76,6 +76,7 @@ void StageSequence::run(const Solve& solve, const std::optional<SimulatedModel::
   context.restart_point = &restart_point_;
   std::optional<RestartPoint> entry = std::exchange(from_, std::nullopt);
   context.kept = &of_.work;
+  context.sliding = &of_.sliding;
   if (entry)
     of_.last_good = of_.kept;
   else if (of_.end_of_run && step_choice && of_.end_of_run->step_choice == *step_choice &&

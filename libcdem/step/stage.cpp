@@ -15,6 +15,7 @@
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 #include "libcdem/step/record.hpp"
+#include "libcdem/step/sliding_friction.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 
 #include <cmath>
@@ -240,6 +241,14 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
   return broken;
 }
 
+// In a relaxation steps are no times.
+void Stage::look_at_sliding() {
+  if (!in_real_time || !context_.sliding || context_.model.surface.empty())
+    return;
+  see_whole();
+  context_.sliding->look(context_.model, context_.state, work.contact.movers.broken);
+}
+
 // Contact is told of the bonds of a block when a face is handed over, or an interface left to contact, of it or of those that
 // are held to it, and of all blocks here.
 void Stage::look_over() {
@@ -301,8 +310,10 @@ void Stage::watch() {
   if (follows_fragments)
     require_followed(context_.model, work, here());
   release_parted_blocks();
-  if (is_due(watch_every))
+  if (is_due(watch_every)) {
     look_over();
+    look_at_sliding();
+  }
   if (!work.resolved.flows.empty() && (is_due(in_water(work.resolved) ? water_every : flow_every) ||
                                        water_is_old(work.resolved, context_.state.time))) {
     see_whole();

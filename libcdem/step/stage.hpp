@@ -146,7 +146,8 @@ private:
   void place_water(); // forces of fields of water for where the faces stand
   void record_step(); // energies and breaks
   void release_parted_blocks();
-  void look_over();        // the state is sound and up to date
+  void look_over(); // the state is sound and up to date
+  void look_at_sliding();
   void look_for_escapes(); // the state is caught up
   void sample();           // a row of the history
   void poll();             // stop, checkpoints, progress

@@ -14,8 +14,9 @@
 
 namespace cdem {
 
-struct SeenForces; // step/support_forces.hpp
-struct KeptWork;   // step/kept_work.hpp
+struct SeenForces;      // step/support_forces.hpp
+struct KeptWork;        // step/kept_work.hpp
+struct SlidingFriction; // step/sliding_friction.hpp
 std::shared_ptr<SeenForces> nobody_looks();
 
 struct StageContext {
@@ -40,6 +41,7 @@ struct StageContext {
   // The end of the run before, where only conditions, strengths or the choice of the step are others since: the stage begins
   // anew, and what its first step takes from springs is counted from the springs of there.
   const RestartPoint* before = nullptr;
+  SlidingFriction* sliding = nullptr; // of all stages; may be null
 };
 
 // The stage can be left here, where none of its loops has begun a step: the RestartPoint is written again. The caller

@@ -145,3 +145,16 @@ TEST_CASE("water is part of a saved state", "[lua][water][checkpoint]") {
                            "assert(m:joints{}[1].water_pressure > 4e4)";
   CHECK_THAT(error_of(text), Equals(""));
 }
+
+TEST_CASE("a restitution can be asked for of every contact that never was bonded", "[lua][joint_laws]") {
+  Script script(R"(
+local cdem = require "cdem"
+local function rough(e)
+  return cdem.barton_bandis{ jrc = 5, jcs = 50e6, residual_friction_angle = 30, initial_stiffness = 1e10,
+                             maximum_closure = 1e-4, length = 1, restitution = e }
+end
+assert(rough().restitution == 1 and rough(0.5).restitution == 0.5)
+assert(cdem.joint_table{ shear = {{0, 0}, {1e6, 5e5}}, restitution = 0.5 }.restitution == 0.5)
+)");
+  script.run();
+}

@@ -53,8 +53,7 @@ Value barton_bandis(Session&, Object*, const Arguments& a) {
   if (const auto length = a.optional_number("length"))
     scale_to_length(law, *length, a.number("sample_length"));
   law.peak_slip = a.optional_number("peak_slip").value_or(law.peak_slip);
-  Joint joint;
-  joint.bonded = false;
+  Joint joint = contact_law(a);
   joint.friction_angle = law.residual_angle;
   joint.law = law;
   joint_stiffness().read(a, joint);
@@ -73,8 +72,7 @@ const Record<JointTable> table_joint{
 
 Value joint_table(Session&, Object*, const Arguments& a) {
   const JointTable law = table_joint.read(a);
-  Joint joint;
-  joint.bonded = false;
+  Joint joint = contact_law(a);
   joint.law = law;
   joint_stiffness().read(a, joint);
   validate(joint);
@@ -157,6 +155,25 @@ void read_residual_strength(Session& session, const Arguments& a, Joint& joint) 
   joint.law = law;
 }
 
+const Record<Joint>& joint_impact() {
+  static const Record<Joint> record{
+      {{number("restitution")
+            .within(0.01, 1)
+            .standard()
+            .doc("coefficient of restitution of the contact of bodies that move far: speed after over speed "
+                 "before an impact, as far as the contact and not waves within the bodies decide it; 1: the "
+                 "contact loses nothing but by friction. Give less than 1 where deformable bodies slide"),
+        &Joint::restitution}}};
+  return record;
+}
+
+Joint contact_law(const Arguments& a) {
+  Joint joint;
+  joint.bonded = false;
+  joint_impact().read(a, joint);
+  return joint;
+}
+
 const Record<Joint>& joint_stiffness() {
   static const Record<Joint> members{
       {{number("thickness_ratio")
@@ -185,11 +202,13 @@ void bind_joint_laws(Module& m) {
         "Rough joint between blocks that never was bonded (Barton and Choubey 1977, Bandis et al. 1983): it "
         "closes on a hyperbola and slips above pressure x tan(residual angle + JRC log10(JCS / pressure)). "
         "With a length, or peak_slip, the roughness is mobilised and worn with slip, and the joint dilates.",
-        rough_joint.fields() + joint_stiffness().fields(), barton_bandis, "cdem.Joint");
+        rough_joint.fields() + joint_stiffness().fields() + joint_impact().fields(), barton_bandis,
+        "cdem.Joint");
   m.add("joint_table",
         "Joint between blocks that never was bonded, by tables: straight between rows, straight on beyond "
         "the last.",
-        table_joint.fields() + joint_stiffness().fields(), joint_table, "cdem.Joint");
+        table_joint.fields() + joint_stiffness().fields() + joint_impact().fields(), joint_table,
+        "cdem.Joint");
 }
 
 } // namespace cdem::script

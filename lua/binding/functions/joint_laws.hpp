@@ -1,4 +1,4 @@
-// Fields of cdem.mohr_coulomb and cdem.coulomb for residual strength and dilation.
+// Fields that laws of joints share: residual strength and dilation, stiffness, restitution.
 #pragma once
 
 #include "lua/binding/module/record.hpp"
@@ -15,6 +15,10 @@ std::vector<Field> residual_strength_fields(); // of a bond only
 void read_residual_strength(Session&, const Arguments&, Joint&);
 
 const Record<Joint>& joint_stiffness();
+const Record<Joint>& joint_impact(); // of contacts that never were bonded
+
+// Such a contact, with what it loses in impacts.
+Joint contact_law(const Arguments&);
 
 // "Barton-Bandis, JRC 10, ..."; "" for a joint without a law.
 std::string law_text(const Joint&);

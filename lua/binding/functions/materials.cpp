@@ -87,15 +87,7 @@ const Record<Joint> any_joint{{{flag("bonded"), &Joint::bonded}, {flag("glued"),
           &Joint::fracture_energy_1},
          {fracture_energy_field("fracture_energy_2")
               .doc("G_II, the same for slip, beyond the work of friction"),
-          &Joint::fracture_energy_2}}},
-    joint_impact{{{number("restitution")
-                       .within(0.01, 1)
-                       .standard()
-                       .doc("coefficient of restitution of the contact of bodies that move far: speed "
-                            "after over speed before an impact, as far as the contact and not waves "
-                            "within the bodies decide it; 1: the contact loses nothing but by friction. "
-                            "Give less than 1 where deformable bodies slide"),
-                   &Joint::restitution}}};
+          &Joint::fracture_energy_2}}};
 
 const Record<StrengthScatter> weibull{
     {{number("modulus").within(2, 1000).required().doc("m"), &StrengthScatter::modulus},
@@ -152,9 +144,8 @@ Value mohr_coulomb(Session& session, Object*, const Arguments& a) {
 }
 
 Value coulomb(Session& session, Object*, const Arguments& a) {
-  Joint joint = joint_friction.read(a);
-  joint.bonded = false;
-  joint_impact.read(a, joint);
+  Joint joint = contact_law(a);
+  joint_friction.read(a, joint);
   read_residual_strength(session, a, joint);
   joint_stiffness().read(a, joint);
   return made(std::move(joint));
@@ -223,7 +214,7 @@ void bind_materials(Module& m) {
             face_strength.fields() + joint_stiffness().fields(),
         mohr_coulomb, "cdem.Joint");
   m.add("coulomb", "Contact that never was bonded: no tension, friction only (Han 2010 eq 9).",
-        joint_friction.fields() + dilation_fields() + joint_stiffness().fields() + joint_impact.fields(),
+        joint_friction.fields() + dilation_fields() + joint_stiffness().fields() + joint_impact().fields(),
         coulomb, "cdem.Joint");
 
   std::vector<Field> stiff = joint_stiffness().fields();
@@ -245,7 +236,7 @@ void bind_materials(Module& m) {
   Class joint{"Joint", "Made by cdem.mohr_coulomb, cdem.hoek_brown_bond, cdem.coulomb, cdem.barton_bandis, "
                        "cdem.joint_table or cdem.glued."};
   for (const Record<Joint>* const record :
-       {&any_joint, &bond_strength, &joint_softening, &joint_stiffness(), &joint_impact})
+       {&any_joint, &bond_strength, &joint_softening, &joint_stiffness(), &joint_impact()})
     record->add_to(joint, &JointObject::joint);
   joint.text = [](const Object& self) {
     const Joint& j = static_cast<const JointObject&>(self).joint;

@@ -7,6 +7,7 @@
 #include "libcdem/results/process_zone.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/step/errors.hpp"
+#include "libcdem/step/sliding_friction.hpp"
 #include "lua/binding/schema/angles.hpp"
 
 #include <algorithm>
@@ -157,8 +158,28 @@ void note_dry_flows(ModelObject& model) {
     model.notes->at_end.push_back("model " + std::to_string(model.number) + ": " + line);
 }
 
+namespace {
+
+// Of bodies that slide by more than their vibrations, once each two.
+void warn_of_sliding(Session& session, ModelObject& model, const Stage& stage) {
+  if (stage.kind != "run" || model.simulation.sliding().of_bodies.empty())
+    return;
+  const double least = 1e-3 * model.simulation.energy().scale(); // J
+  for (const auto& [bodies, sums] : model.simulation.sliding().of_bodies)
+    if (sums.looks >= 10 && sums.slides() && sums.law > least && sums.done < 0.985 * sums.law &&
+        model.told_sliding.insert(bodies).second)
+      session.warn(of_stage(stage) + shown_pair(model.body_names[bodies[0]], model.body_names[bodies[1]]) +
+                   ": they slide, and friction has done " + three_digits(sums.done / sums.law) +
+                   " of the work that its law asks for: while a sole vibrates, the slip of some of its "
+                   "points reverses and others stick; start the load slowly or with model:relax, and give "
+                   "the contact a restitution of 0.5 or less, or the materials stiffness_damping");
+}
+
+} // namespace
+
 void warn_after_stage(Session& session, ModelObject& model, const Stage& stage) {
   warn_of_large_deformation(session, model, stage);
+  warn_of_sliding(session, model, stage);
   model.notes->at_end.clear();
   note_dry_flows(model);
   for (const auto& [a, b] : model.simulation.unmet())

@@ -1,6 +1,8 @@
 // A model as the script holds it: libcdem's Simulation with the names the script gave.
 #pragma once
 
+#include <set>
+
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/session/film.hpp"
 #include "lua/binding/session/session.hpp"
@@ -33,6 +35,7 @@ struct ModelObject final : Object {
   } written;            // of the history, as its file stands
   double told_open = 0; // energy balance that the user was warned of
   std::string told_slivers;
+  std::set<std::array<int, 2>> told_sliding; // bodies that slide with less than their friction
   int failing_since =
       0; // stage whose relaxation found that the model runs away; 0: none, or it has come to rest since
   bool solving = false;         // a callback of a stage may look and not touch
