@@ -40,6 +40,28 @@ geom::TetMesh shaped(Shape shape, int n) {
   return mesh;
 }
 
+// A cube of 1 m in a wave, and the wave's velocity and acceleration without its pressure.
+struct CubeInWave {
+  std::shared_ptr<const cdem::WaveField> wave;
+  cdem::FunctionWater without;
+  System system;
+};
+
+CubeInWave cube_in_wave() {
+  cdem::WaveGiven given;
+  given.height = 3;
+  given.period = 9;
+  given.depth = 15;
+  const auto wave = std::make_shared<cdem::WaveField>(given);
+  cdem::FunctionWater without;
+  without.velocity = [wave](const Vec3& x, double t) { return wave->at(x, t).velocity; };
+  without.acceleration = [wave](const Vec3& x, double t) { return wave->at(x, t).acceleration; };
+  geom::TetMesh cube = shaped(Shape::cube, 3);
+  for (Vec3& x : cube.nodes)
+    x += Vec3(4, 0, -6);
+  return {wave, without, System(build({meshed("unit", cube)}))};
+}
+
 } // namespace
 
 TEST_CASE("still water carries a body as Archimedes said, at any attitude and draught", "[water]") {
@@ -133,18 +155,7 @@ TEST_CASE("a body at rest in accelerated water takes Morison's force", "[water]"
 }
 
 TEST_CASE("a field with pressure and one with acceleration give the same force, neither twice", "[water]") {
-  cdem::WaveGiven given;
-  given.height = 3;
-  given.period = 9;
-  given.depth = 15;
-  const auto wave = std::make_shared<cdem::WaveField>(given);
-  cdem::FunctionWater without;
-  without.velocity = [&](const Vec3& x, double t) { return wave->at(x, t).velocity; };
-  without.acceleration = [&](const Vec3& x, double t) { return wave->at(x, t).acceleration; };
-  geom::TetMesh cube = shaped(Shape::cube, 3);
-  for (Vec3& x : cube.nodes)
-    x += Vec3(4, 0, -6);
-  System s(build({meshed("unit", cube)}));
+  auto [wave, without, s] = cube_in_wave();
   const double ca = GENERATE(0.0, 0.67);
   for (const double time : {0.0, 1.7, 4.0}) {
     s.state.time = time;
@@ -316,19 +327,8 @@ TEST_CASE("the added mass of a body that floats is that of its wet volume, for a
 
 TEST_CASE("a surface without a pressure leaves out no force of accelerated water, and counts none twice",
           "[water]") {
-  cdem::WaveGiven given;
-  given.height = 2;
-  given.period = 7;
-  given.depth = 12;
-  const auto wave = std::make_shared<cdem::WaveField>(given);
-  cdem::FunctionWater surface;
-  surface.velocity = [&](const Vec3& x, double t) { return wave->at(x, t).velocity; };
-  surface.acceleration = [&](const Vec3& x, double t) { return wave->at(x, t).acceleration; };
-  surface.surface = [&](const Vec3& x, double t) { return wave->at(x, t).surface; };
-  geom::TetMesh cube = shaped(Shape::cube, 3);
-  for (Vec3& x : cube.nodes)
-    x += Vec3(3, 0, -4);
-  System s(build({meshed("unit", cube)}));
+  auto [wave, surface, s] = cube_in_wave();
+  surface.surface = [wave = wave](const Vec3& x, double t) { return wave->at(x, t).surface; };
   for (const double time : {0.0, 1.2, 2.9}) {
     s.state.time = time;
     s.conditions.flows = {in_water(wave, 0)};
