@@ -217,10 +217,10 @@ bool Simulation::flow(const Flow& flow) {
   if (flow.added_mass > 0)
     for (const BlockInWater& in_water : resolved.flows.back().in_water)
       if (const Block& block = impl_->model.blocks[in_water.asked.block]; !in_water.inertia)
-        throw geom::InputError(
-            "added_mass", fmt::format("{:g}", flow.added_mass),
-            fmt::format("0 on a part of the faces of body \"{}\"", impl_->model.bodies[block.body].name),
-            "added mass belongs to the volume of a body; name the whole body");
+        throw geom::InputError("added_mass", fmt::format("{:g}", flow.added_mass),
+                               fmt::format("0 on a part of the faces of a unit of body \"{}\"",
+                                           impl_->model.bodies[block.body].name),
+                               "added mass belongs to the volume of a unit; name whole units");
   impl_->conditions = std::move(changed);
   return flows_meet(impl_->model, resolved);
 }

@@ -438,7 +438,7 @@ TEST_CASE("accelerated water takes a body once, and no body of which it meets a 
   cdem::Simulation given(spec, 1, nullptr);
   cdem::Flow part = in_water(field, 1, 0.5);
   part.on = {cdem::Selection::side("x-")};
-  CHECK_THROWS_WITH(given.flow(part), Catch::Contains("name the whole body"));
+  CHECK_THROWS_WITH(given.flow(part), Catch::Contains("name whole units"));
   part.added_mass = 0;
   CHECK_NOTHROW(given.flow(part));
 }

@@ -43,7 +43,7 @@ const Record<Flow> steady{
           .within(0, 100)
           .standard()
           .doc("C_A = C_M - 1, of the volume under water: sphere 0.5, cylinder across the stream 1, cube "
-               "0.67; on whole bodies only"),
+               "0.67; on whole units only"),
       &Flow::added_mass},
      {flag("relative")
           .standard()

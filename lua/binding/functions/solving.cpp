@@ -146,7 +146,8 @@ const Record<RunOptions> run_options{
       &RunOptions::local_damping},
      {every()},
      {callback()},
-     {function("stop", "(): boolean").doc("ends the stage when it returns true")}}};
+     {function("stop", "(): boolean")
+          .doc("ends the stage when it returns true; called every `every` steps, 100 by default")}}};
 
 Value run(Session& session, ModelObject& model, const Arguments& a) {
   RunOptions options = run_options.read(a);
