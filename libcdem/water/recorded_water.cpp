@@ -235,6 +235,21 @@ geom::Box RecordedWater::box() const {
   return box;
 }
 
+std::optional<RecordedWater::AtTop> RecordedWater::reaches_top() const {
+  const int last = record_.size[2] - 1;
+  if (last == 0 || record_.frames[0].fraction.empty())
+    return {};
+  const double top = record_.origin.z() + last * record_.spacing.z();
+  for (std::size_t frame = 0; frame < layers_.size(); ++frame)
+    for (std::size_t column = 0; column < columns(); ++column)
+      if (const Layer& layer = layers_[frame][column].back(); !layer.dry && layer.top >= top)
+        return AtTop{
+            record_.times[frame],
+            {record_.origin.x() + static_cast<double>(column % record_.size[0]) * record_.spacing.x(),
+             record_.origin.y() + static_cast<double>(column / record_.size[0]) * record_.spacing.y(), top}};
+  return {};
+}
+
 void RecordedWater::require_known(const geom::Vec3& place, double time) const {
   const geom::Box known = box();
   const geom::Vec3 slack = 1e-6 * record_.spacing;

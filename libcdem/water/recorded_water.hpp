@@ -48,6 +48,12 @@ public:
 
   geom::Box box() const; // m, where it is known; infinite along an axis of one point
   const std::vector<double>& times() const { return record_.times; }
+  // The first time and place at which a water fraction says that water reaches the top of the box, where it is cut.
+  struct AtTop {
+    double time = 0; // s
+    geom::Vec3 place = geom::Vec3::Zero();
+  };
+  std::optional<AtTop> reaches_top() const;
 
 private:
   struct Corner {

@@ -90,7 +90,8 @@ SlopeWater::SlopeWater(const SlopeGiven& given) : given_(given) {
   water.cell = given_.cell;
   water.gravity = given_.gravity;
   water.friction = given_.friction;
-  water.entering = given_.entering;
+  if (given_.entering) // the last frame lies beyond the duration, where the waves may be unknown
+    water.entering = [this](double time) { return given_.entering(std::min(time, given_.duration)); };
   for (std::size_t i = 0; i < n; ++i) {
     bed_.push_back(bed_at(given_.bed, given_.bed[0][0] + (static_cast<double>(i) + 0.5) * given_.cell));
     water.bed.push_back(bed_.back());

@@ -160,6 +160,25 @@ TEST_CASE("recorded water is refused beside its box, outside of its times, and o
   CHECK_THROWS_WITH(cdem::RecordedWater(twice), Catch::Matchers::Contains("times[2] = 0: must be later"));
 }
 
+TEST_CASE("recorded water tells where it reaches the top of its box", "[water]") {
+  CHECK(!cdem::RecordedWater(recorded(wave_of(), {})).reaches_top());
+  cdem::WaterRecord r;
+  r.size = {3, 1, 3};
+  for (const double time : {0, 2}) {
+    r.times.push_back(time);
+    cdem::WaterFrame& f = r.frames.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) {
+        f.velocity.push_back(Vec3::Zero());
+        f.fraction.push_back(k < 2 || (time == 2 && i == 1) ? 1 : 0);
+      }
+  }
+  const auto cut = cdem::RecordedWater(r).reaches_top();
+  REQUIRE(cut);
+  CHECK(cut->time == 2);
+  CHECK(cut->place == Vec3(1, 0, 2));
+}
+
 TEST_CASE("a place inside a solid has the water beside it, and a dry column none", "[water]") {
   cdem::WaterRecord r;
   r.size = {6, 1, 4};

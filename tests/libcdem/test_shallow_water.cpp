@@ -272,9 +272,14 @@ TEST_CASE("a solution that would take more than 2 GB is refused, and the message
 TEST_CASE("the water on a slope does not depend on how long it is asked for", "[water]") {
   cdem::SlopeGiven given = slope_of(2, 10);
   given.cell = 0.2;
-  given.entering = [](double t) { return 0.05 * std::sin(t); };
+  double asked = 0; // s, the latest time
+  given.entering = [&](double t) {
+    asked = std::max(asked, t);
+    return 0.05 * std::sin(t);
+  };
   given.duration = 3.011;
   const cdem::SlopeWater longer(given);
+  CHECK(asked == given.duration); // the waves may be known no longer
   given.duration = 2;
   const cdem::SlopeWater shorter(given);
   const cdem::WaterPoint a = longer.at({3, 0, -0.2}, 1.77), b = shorter.at({3, 0, -0.2}, 1.77);

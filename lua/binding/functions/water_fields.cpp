@@ -10,6 +10,7 @@
 #include "libcdem/water/steady_wave.hpp"
 #include "libgeom/core/check.hpp"
 #include "libgeom/core/error.hpp"
+#include "libgeom/core/place_text.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <cmath>
@@ -310,6 +311,11 @@ Value file_water(Session& session, Object*, const Arguments& a) {
   for (int axis = 0; axis < 3; ++axis)
     line += std::string(", ") + "xyz"[axis] + " " + range_text(box.min[axis], box.max[axis]);
   session.message(line + " m; a run that leaves these ends with an error");
+  if (const auto cut = made->reaches_top())
+    session.warn(fmt::format(
+        "cdem.water.file: at {:g} s water reaches the top of the files at {}, and there is air above; "
+        "write a higher box",
+        cut->time, geom::place_text(cut->place)));
   return holding(made, "water of " + geom::counted(files.paths.size(), "file"));
 }
 
