@@ -82,7 +82,7 @@ void StageSequence::run(const Solve& solve, const std::optional<SimulatedModel::
   else if (of_.end_of_run && step_choice && of_.end_of_run->step_choice == *step_choice &&
            !of_.end_of_run->with_other_conditions)
     entry = take_up(std::move(of_.end_of_run->point));
-  else if (of_.end_of_run && step_choice) {
+  else if (of_.end_of_run) {
     gather_springs(of_.end_of_run->point);
     context.before = &of_.end_of_run->point;
   }

@@ -110,7 +110,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away, Kep
     tets_by_place_ = end->tets_by_place;
   } else {
     start_spring_forces(context_.model, context_.state, work.bond);
-    if (context_.before)
+    if (context_.before && !context_.procedure_state)
       take_springs(*context_.before);
     if (kept && kept->tet_contacts && kept->model == fingerprint(context_.model))
       take_tet_pairs(context_.model, context_.state, std::move(kept->tet_contacts), work.contact);

@@ -38,8 +38,8 @@ struct StageContext {
   Model* changing = nullptr; // the model itself, where nodes of cohesive bodies may be freed; null: none are
   // The stage before wrote it, and this one takes it and writes its own where it ends. Null: nothing is kept.
   std::shared_ptr<KeptWork>* kept = nullptr;
-  // The end of the run before, where only conditions, strengths or the choice of the step are others since: the stage begins
-  // anew, and what its first step takes from springs is counted from the springs of there.
+  // The end of the run before, where only conditions, strengths or the choice of the step are others since: a stage of one loop,
+  // a run or a relaxation, begins anew, and what its first step takes from springs is counted from the springs of there.
   const RestartPoint* before = nullptr;
   SlidingFriction* sliding = nullptr; // of all stages; may be null
 };

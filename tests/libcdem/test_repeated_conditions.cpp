@@ -11,37 +11,77 @@
 using namespace testing;
 using geom::Vec3;
 
+namespace {
+
+// Two cubes of 0.1 m whose softening joint is pressed by 4 MPa, and how the moved one is led.
+struct PressedJoint {
+  cdem::Simulation s{spec(), 1, nullptr};
+  cdem::Fix lead = fixed(body_of("moved"));
+  cdem::RunOptions options;
+
+  PressedJoint() {
+    s.fix(fixed(body_of("still")));
+    options.steps = 20;
+    lead.displacement = Vec3(-2e-5, 0, 0);
+    s.fix(lead);
+    s.run(options);
+    lead.displacement.reset();
+    options.time_step = 0.5 * s.stable_time_step();
+  }
+  void slide(double way, int steps) { // m; goes on from where the joint stands
+    lead.velocity = Vec3(0, way / (steps * options.time_step), 0);
+  }
+
+private:
+  static cdem::ModelSpec spec() {
+    cdem::Joint joint = softening_joint(cdem::Softening::linear);
+    joint.normal_stiffness = 2e11;
+    joint.shear_stiffness = 1e11;
+    cdem::ModelSpec spec;
+    spec.bodies = {body("still", geom::grid({0.1, 0.1, 0.1}, {1, 1, 1}, {-0.1, 0, 0}), rock()),
+                   body("moved", geom::grid({0.1, 0.1, 0.1}, {1, 1, 1}), rock())};
+    spec.pairs = {{"still", "moved", joint}};
+    return spec;
+  }
+};
+
+} // namespace
+
 TEST_CASE("friction and damage of a joint are counted in full where conditions are given again between runs",
           "[run][softening]") {
   const int parts = GENERATE(1, 60, 300); // of 300 steps
   CAPTURE(parts);
-  cdem::Joint joint = softening_joint(cdem::Softening::linear);
-  joint.normal_stiffness = 2e11;
-  joint.shear_stiffness = 1e11;
-  cdem::ModelSpec spec;
-  spec.bodies = {body("still", geom::grid({0.1, 0.1, 0.1}, {1, 1, 1}, {-0.1, 0, 0}), rock()),
-                 body("moved", geom::grid({0.1, 0.1, 0.1}, {1, 1, 1}), rock())};
-  spec.pairs = {{"still", "moved", joint}};
-  cdem::Simulation s(spec, 1, nullptr);
-  s.fix(fixed(body_of("still")));
-  cdem::Fix lead = fixed(body_of("moved"));
-  cdem::RunOptions options;
-  options.steps = 20;
-  lead.displacement = Vec3(-2e-5, 0, 0); // pressed by 4 MPa
-  s.fix(lead);
-  s.run(options);
-  lead.displacement.reset();
-  options.time_step = 0.5 * s.stable_time_step();
-  options.steps = 300 / parts;
-  lead.velocity = Vec3(0, 4e-4 / (300 * options.time_step), 0);
+  PressedJoint joint;
+  joint.options.steps = 300 / parts;
+  joint.slide(4e-4, 300);
   for (int i = 0; i < parts; ++i) {
-    s.fix(lead);
-    s.run(options);
+    joint.s.fix(joint.lead);
+    joint.s.run(joint.options);
   }
-  s.run(options); // one step or more, so that the last of those before is counted
-  const cdem::EnergyLedger e = s.energy();
+  joint.s.run(joint.options); // one step or more, so that the last of those before is counted
+  const cdem::EnergyLedger e = joint.s.energy();
   CHECK(e.breaking == Approx(200 * 0.01).epsilon(1e-3));
   CHECK(e.balance_error() < 2e-3);
+}
+
+TEST_CASE("a relaxation counts what the last step of the run before took from springs", "[run][softening]") {
+  const auto energy_after = [](bool relaxes) {
+    PressedJoint joint;
+    joint.options.steps = 10;
+    joint.slide(1.2e-4, 10); // its last step is in the middle of softening
+    joint.s.fix(joint.lead);
+    joint.s.run(joint.options);
+    joint.s.fix(fixed(body_of("moved")));
+    if (relaxes)
+      joint.s.relax({});
+    else
+      joint.s.run(joint.options);
+    return joint.s.energy();
+  };
+  const cdem::EnergyLedger run = energy_after(false), relaxed = energy_after(true);
+  CHECK(run.breaking > 0.1);
+  CHECK(relaxed.friction == Approx(run.friction).epsilon(1e-9));
+  CHECK(relaxed.breaking == Approx(run.breaking).epsilon(1e-9));
 }
 
 TEST_CASE("a brittle face loses its strength within a step of cracking, in whatever parts a run is made",
