@@ -213,6 +213,17 @@ function reference.influence(given)
   return result
 end
 
+-- Those of a beam of the same shape, `scale` times as large: in a plane a force moves it as far.
+function reference.scaled(factors, scale)
+  local result = {}
+  for name, value in pairs(factors) do result[name] = value end
+  for _, name in ipairs{"area", "y"} do
+    result[name] = {}
+    for k, value in ipairs(factors[name]) do result[name][k] = scale * value end
+  end
+  return result
+end
+
 -- Curve for a linear softening law: lists deflection, load (per thickness), mouth, tip (height), from the elastic
 -- state in which the tip's node reaches the strength on. Its work is the area under it.
 function reference.curve(given, factors)

@@ -15,10 +15,12 @@ local periods = cdem.parameter{ name = "periods", default = 6, type = "number", 
 local damping = cdem.parameter{ name = "damping", default = 0.01, range = {0, 1}, doc = "of the first mode" }
 
 local ft, E, G = beam.strength, beam.youngs_modulus, beam.fracture_energy
+local factors, depth_of_factors
 local function exact(depth)
   local given = { depth = depth, length = beam.slenderness * depth, notch = beam.notch_ratio * depth, strip = 0,
                   elements = 20, E = E, nu = beam.poissons_ratio, strength = ft, energy = G }
-  local load, at = reference.peak(reference.curve(given))
+  if not factors then factors, depth_of_factors = reference.influence(given), depth end
+  local load, at = reference.peak(reference.curve(given, reference.scaled(factors, depth / depth_of_factors)))
   return load / depth, at
 end
 
