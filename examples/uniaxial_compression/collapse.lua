@@ -5,6 +5,7 @@ local cdem = require "cdem"
 local duration = cdem.parameter{ name = "collapse_duration", default = 0.3, range = {1e-4, 10}, unit = "s" }
 -- Bodies fall and slide as fast with any density; stress waves are slower with a larger one, and steps longer.
 local mass_scaling = cdem.parameter{ name = "mass_scaling", default = 400, range = {1, 1e4}, doc = "of the density" }
+local film = cdem.parameter{ name = "film", default = true, doc = "of the collapse" }
 
 local collapse = {}
 
@@ -31,10 +32,10 @@ function collapse.run(model, on)
   local frames, every, stroke, speed = {}, duration / 60, 0.01, 0.5 -- m, m/s
   local camera = { position = {0.15, 0.13, 1.45}, focal_point = {0.15, 0.13, 0}, up = {0, 1, 0}, view_angle = 30 }
   -- Frames of the film have a camera; a picture fits the model.
-  local function draw(name, film)
+  local function draw(name, of_film)
     model:picture{ file = name, colour = "displacement.magnitude", range = {0, 0.15}, deformation = 1, plain = {"floor"},
                    broken_bonds = false, axes = false, title = string.format("The failed plate comes apart, %.3f s", model.time),
-                   camera = film and camera or nil, size = film and {1600, 1200} or {1600, 0} }
+                   camera = of_film and camera or nil, size = of_film and {1600, 1200} or {1600, 0} }
     return name
   end
   model:clear_loads()
@@ -44,10 +45,10 @@ function collapse.run(model, on)
     model:fix{ on = on.top, axes = "xyz", velocity = {0, model.time - start < stroke / speed and -speed or 0, 0} }
     model:run{ duration = every, safety = 0.8 }
     open = math.max(open, model:energy().balance_error)
-    frames[i] = draw(string.format("frames/collapse_%03d.png", i), true)
+    if film then frames[i] = draw(string.format("frames/collapse_%03d.png", i), true) end
     if i == 20 then draw("sliding.png") end
   end
-  cdem.film{ file = "collapse.ogv", frames = frames, frames_per_second = 15 }
+  if film then cdem.film{ file = "collapse.ogv", frames = frames, frames_per_second = 15 } end
   draw("collapsed.png")
   model:save{ file = "collapsed.vtu" }
 
