@@ -2,12 +2,14 @@
 
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/response/contact_bounds.hpp"
 #include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/step/record.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cdem {
@@ -80,7 +82,8 @@ void ContactUpdate::go_on_from_end(const StageContext& context, ContactWork& wor
   work.search.fragments_due = false;
 }
 
-void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_surfaces) const {
+void ContactUpdate::start_anew(const Model& model, const State& state, ContactWork& work,
+                               bool same_surfaces) const {
   if (model.surface.empty())
     return;
   ContactWork before = std::move(work);
@@ -96,6 +99,18 @@ void ContactUpdate::start_anew(const Model& model, ContactWork& work, bool same_
   go_on(work);
   if (same_surfaces)
     keep_rigid_pairs(before, work);
+  take_tet_pairs(model, state, std::move(before.tet_contacts), work);
+}
+
+void ContactUpdate::pass_restart_point(const Model& model, const State& state, ContactWork& work) const {
+  if (work.search.count == 0) // started anew in this step
+    return;
+  // Several ranks share the rows by loads that have just been counted anew. Whether bodies without a law meet is asked in each search.
+  const bool all_known = work.shared->alone() && !work.due && !work.search.fragments_due &&
+                         std::isinf(work.search.undefined_pair_margin);
+  if (!all_known)
+    start_anew(model, state, work, true);
+  work.due = true;
 }
 
 } // namespace cdem

@@ -26,9 +26,11 @@ public:
   // As a stage that goes on from the end of the one that this and the work are of: what was found near is near.
   void go_on_from_end(const StageContext&, ContactWork&);
   // Contacts are looked for anew from here on, as by a stage that goes on from here: which pairs are skipped is not saved.
-  // They have been evaluated for where the nodes are. same_surfaces: those of before; what is known of rigid pairs goes on,
-  // as it changes no force.
-  void start_anew(const Model&, ContactWork&, bool same_surfaces) const;
+  // They have been evaluated for where the nodes are. The pairs of tetrahedra go on, as they change no force.
+  // same_surfaces: those of before; what is known of rigid pairs goes on too.
+  void start_anew(const Model&, const State&, ContactWork&, bool same_surfaces) const;
+  // A stage may go on from here. All that is near is known, or is looked for anew.
+  void pass_restart_point(const Model&, const State&, ContactWork&) const;
 
 private:
   std::vector<double> row_sums_;          // N/m, of elements and bonds (n_nodes); empty without contacts

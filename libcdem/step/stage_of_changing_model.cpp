@@ -2,7 +2,6 @@
 // new springs. What is known of the model before is carried over or made anew, and the stage can be left there.
 #include "libcdem/bond/release.hpp"
 #include "libcdem/bond/spring_forces.hpp"
-#include "libcdem/contact/broad_phase/tet_pairs.hpp"
 #include "libcdem/fracture/renew_interfaces.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/results/energy.hpp"
@@ -114,12 +113,7 @@ void Stage::change_nodes(Freed freed) {
     take_near_of_all(std::move(now), work);
   }
   contacts_ = ContactUpdate(context_);
-  const auto start_contacts = [&](bool same_surfaces) {
-    std::shared_ptr<TetContacts> pairs = std::move(work.contact.tet_contacts);
-    contacts_.start_anew(model, work.contact, same_surfaces);
-    take_tet_pairs(model, state, std::move(pairs), work.contact);
-  };
-  start_contacts(false);
+  contacts_.start_anew(model, state, work.contact, false);
   place_water();
   update_external(work.resolved, state.time, moving());
   if (std::find(freed.anew.begin(), freed.anew.end(), 1) == freed.anew.end())
@@ -127,7 +121,7 @@ void Stage::change_nodes(Freed freed) {
   const BondWork bond = work.bond; // what springs lose in the step to come begins with the one before
   preload_faces(model, state, net_forces(model, state, work, context_.threads), freed.anew);
   work.bond = bond;
-  start_contacts(true);
+  contacts_.start_anew(model, state, work.contact, true);
 }
 
 BegunCracks Stage::begun_cracks() {
@@ -174,7 +168,7 @@ bool Stage::renew_interfaces() {
   shares_.loads_are_whole();
   shares_.share(moving());
   contacts_ = ContactUpdate(context_);
-  contacts_.start_anew(model, work.contact, true);
+  contacts_.start_anew(model, state, work.contact, true);
   progress_.times.end(StepLine::bonds);
   return true;
 }

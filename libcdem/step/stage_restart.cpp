@@ -41,7 +41,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state) {
   note(point, std::move(loop_state));
   if (context_.procedure_state)
     point.procedure_state = context_.procedure_state();
-  contacts_.start_anew(context_.model, work.contact, true);
+  contacts_.pass_restart_point(context_.model, context_.state, work.contact);
   if (context_.checkpoints)
     context_.checkpoints->marked();
 }
@@ -89,7 +89,8 @@ void Stage::go_back() {
   work.strain_step = good_.strain_step;
   cdem::go_back(context_.log, context_.state.step, good_.breaks, good_.one_way);
   work.near.forget();
-  contacts_.start_anew(context_.model, work.contact, false);
+  work.contact.tet_contacts = nullptr; // of a state that was wrong
+  contacts_.start_anew(context_.model, context_.state, work.contact, false);
 }
 
 void Stage::take_springs(const RestartPoint& from) {

@@ -47,6 +47,7 @@ void Phases::run(const char* name, std::int64_t most_steps, const std::function<
   LastProgress observer;
   StageContext context{model, state, conditions, log, last_good_, observer, 1, ++stage_};
   context.changing = &model;
+  context.restart_point = &restart_point_;
   const RunResult r = cdem::run(context, options);
   const double rate = static_cast<double>(r.steps) / watch.seconds();
   whole_ = whole_ > 0 ? whole_ : rate;

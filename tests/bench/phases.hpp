@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace bench {
@@ -35,7 +36,8 @@ public:
 private:
   std::string label_;
   cdem::State last_good_;
-  double start_ = 0, whole_ = 0; // J; steps a second
+  std::optional<cdem::RestartPoint> restart_point_; // passed as often as in the run of a script
+  double start_ = 0, whole_ = 0;                    // J; steps a second
   int stage_ = 0;
 };
 

@@ -1,5 +1,8 @@
 // A stage takes what the stage before knew of contacts (step/kept_work.hpp): it looks for nothing again, and no bit changes.
 #include "libcdem/step/kept_work.hpp"
+
+#include "libcdem/contact/data/tet_contacts.hpp"
+#include "libcdem/step/stage.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
 
 using namespace testing;
@@ -65,14 +68,14 @@ TEST_CASE("a run that goes on takes the contacts of the run before, and any stag
   };
   run(150, false, true);
   CHECK(one.log.broken_tension + one.log.broken_shear > 20);
-  run(51, true); // no face is left to contact in the steps that follow, which are no multiple of 20
+  run(61, true); // no face is left to contact in the steps that follow, which are no multiple of 20
   REQUIRE(one.kept);
   REQUIRE(one.kept->end);
   REQUIRE(one.kept->tet_contacts);
   CHECK(!other.kept);
   const std::shared_ptr<cdem::TetContacts> pairs = one.kept->tet_contacts;
   const std::int64_t searches = one.kept->end->contact.search.count;
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 3; ++i)
     run(1, true);
   REQUIRE(one.kept->end);
   CHECK(one.kept->end->contact.search.count == searches);
@@ -86,4 +89,21 @@ TEST_CASE("a run that goes on takes the contacts of the run before, and any stag
     fall->model.node_mass.back() *= 2;
   run(5, false);
   CHECK(one.kept->tet_contacts != pairs);
+}
+
+TEST_CASE(
+    "a stage keeps the pairs of tetrahedra where it passes a restart point, and one that goes on from there "
+    "without them gets the same bits",
+    "[run][contact][breaking]") {
+  constexpr int before = 150, beyond = 5;
+  Fall one(true), other(false);
+  for (Fall* fall : {&one, &other})
+    fall->run(before, false, true);
+  one.run(cdem::watch_every - before + beyond, true, false);
+  other.run(cdem::watch_every - before, true, false);
+  other.run(beyond, true, false);
+  CHECK(cdem::hash(one.state) == cdem::hash(other.state));
+  REQUIRE(one.kept);
+  REQUIRE(one.kept->tet_contacts);
+  CHECK(one.kept->tet_contacts->steps > 2 * beyond); // since they were found
 }

@@ -353,8 +353,10 @@ void take_tet_pairs(const Model& model, const State& state, std::shared_ptr<TetC
     of.paths.path[t] += rounding * moved;
     of.paths.now[3][t] = static_cast<float>(of.paths.swing[t] += rounding * moved);
   }
+  const std::array<std::vector<int>, 4> corner = of.corner;
   set_nodes(model, of);
-  of.joint.assign(model.node_position.size(), -1); // of other nodes than before
+  if (of.corner != corner) // joints of other nodes than before
+    of.joint.assign(model.node_position.size(), -1);
   of.fresh = true;
   wake_contacts(state, of);
   work.tet_contacts = std::move(before);

@@ -20,8 +20,8 @@ inline bool forgets_overlaps(const State& state, const ContactWork& work) {
 // bonds, and has found fragments.
 void find_tet_pairs(const Model&, const State&, ContactWork&, bool told);
 
-// Goes on with the pairs of before where nodes have been freed or joined: tetrahedra keep their numbers, and only those of joined
-// nodes have moved. Null: none were known.
+// Goes on with the pairs of before, also where nodes have been freed or joined: tetrahedra keep their numbers, and only those of
+// joined nodes have moved. Null: none were known.
 void take_tet_pairs(const Model&, const State&, std::shared_ptr<TetContacts> before, ContactWork&);
 
 } // namespace cdem
