@@ -183,6 +183,41 @@ TEST_CASE("semi-edges: a crack that ends inside gives edges to its mouth only",
   CHECK(edges_of(s).size() == (8 + 4 * 2) * 2 + 2 * 4);
 }
 
+TEST_CASE(
+    "semi-edges: where more faces are handed over, those found before and the new ones are those found anew",
+    "[contact][edges][fracture]") {
+  System s = broken_in_two();
+  const auto found = [&](double up_to, std::vector<cdem::EdgesOfBroken> known) { // m, of y
+    each_face(s.model.mesh, [&](const cdem::MeshChunk& chunk, std::int64_t batch, int lane) {
+      double y = 0;
+      for (const int n : face_nodes(s.model.mesh, chunk, batch, lane).a)
+        y += s.model.node_position[n].y() / 3;
+      s.state.faces[batch].handed_over[lane] = y < up_to ? 1 : 0;
+    });
+    cdem::ContactWork work;
+    cdem::start_contact(s.model, work);
+    cdem::tell_of_bonds(s.model, s.state, work.search.told_due);
+    cdem::find_fragments(s.model, s.state, work.movers, work.motion);
+    return cdem::find_semi_edges(s.model, s.state, work.movers, std::move(known));
+  };
+  std::vector<cdem::EdgesOfBroken> known;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max(), most = 0;
+  for (const double part : {0.3, 0.6, 1.0, 0.4}) {
+    cdem::SurfaceEdges now = found(part * width, std::move(known));
+    const cdem::SurfaceEdges anew = found(part * width, {});
+    REQUIRE(now.all.size() == anew.all.size());
+    for (std::size_t e = 0; e < now.all.size(); ++e) {
+      CHECK(now.all[e].id() == anew.all[e].id());
+      CHECK(now.all[e].triangles == anew.all[e].triangles);
+      CHECK(now.all[e].nodes == anew.all[e].nodes);
+    }
+    fewest = std::min(fewest, now.all.size());
+    most = std::max(most, now.all.size());
+    known = std::move(now.of_broken);
+  }
+  CHECK(fewest < most);
+}
+
 TEST_CASE("semi-edges: pieces of a broken body that meet edge on edge part as bodies never bonded do",
           "[contact][edges][fracture]") {
   const double phi = GENERATE(0.0, 20.0);

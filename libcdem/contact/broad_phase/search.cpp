@@ -211,7 +211,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     edges_before = std::move(work.edges.all);
     find_fragments(model, state, work.movers, work.motion);
     find_tets_beyond(model, work.movers, work.tets_beyond);
-    work.edges = find_semi_edges(model, state, work.movers);
+    work.edges = find_semi_edges(model, state, work.movers, std::move(work.edges.of_broken));
     set_displacements(model, state, work, threads);
     find_pairwise(model, state, work.movers, work.rigid_pairs);
   }

@@ -11,10 +11,22 @@ struct EdgeBeyond {
   double direction = 1; // 1 or -1: the line runs along the edge's own direction or against it
 };
 
+// Of a block that has broken: the sides of all its triangles by the edge of the mesh at which they stand, and the semi-edges found
+// there, which stay as long as the same triangles are outside.
+struct EdgesOfBroken {
+  int block = 0;
+  std::vector<int> sides;         // three times the triangle, and the corner from which it runs to the next
+  std::vector<int> begin;         // by edge of the mesh, into sides; the last is the end
+  std::vector<char> outside;      // per triangle of the block
+  std::vector<ContactEdge> found; // by edge of the mesh
+  std::vector<int> found_begin;   // likewise, into found
+};
+
 // Written by find_semi_edges, when faces have broken.
 struct SurfaceEdges {
-  std::vector<ContactEdge> all; // by id
-  std::vector<int> begin;       // (n_triangles + 1) into `all`, by their first triangle
+  std::vector<EdgesOfBroken> of_broken; // by block
+  std::vector<ContactEdge> all;         // by id
+  std::vector<int> begin;               // (n_triangles + 1) into `all`, by their first triangle
   // Per triangle and side of it, from its corner to the next: the triangle beyond the edge there; -1: no edge.
   std::vector<std::array<int, 3>> triangle_beyond;
   // Per edge: where the edges of its fragment that meet at its two ends begin in at_end.

@@ -13,6 +13,8 @@
 
 namespace cdem {
 
-SurfaceEdges find_semi_edges(const Model&, const State&, const Movers&);
+// known: SurfaceEdges::of_broken of the search before, of the same model; empty: none is known.
+SurfaceEdges find_semi_edges(const Model&, const State&, const Movers&,
+                             std::vector<EdgesOfBroken> known = {});
 
 } // namespace cdem
