@@ -42,6 +42,18 @@ void turn_stress(const Model& model, State& state, int block, const geom::Mat3& 
     set_mesh_stress(model, state, tet, turned(rotation, mesh_stress(model, state, tet)));
 }
 
+// The preload of freed faces too.
+void turn_preloads(const Model& model, State& state, const std::vector<char>& leaves) {
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
+    const int rigid = model.blocks[chunk.block].rigid;
+    if (rigid < 0 || !leaves[rigid] || state.faces[batch].preloaded[lane] == 0)
+      return;
+    const geom::Mat3 turn = rotation(state.rigid[rigid]);
+    for (CohesiveFace::Vector& force : state.cohesive[batch * lanes + lane].preload)
+      force = three_of(turn * vec(force));
+  });
+}
+
 void clear_viscous_stress(const Model& model, State& state, const Block& block) {
   for (int tet = block.tet_begin; tet < block.tet_end; ++tet) {
     const int slot = model.mesh.tet_slot[tet - model.mesh.first_tet];
@@ -138,6 +150,7 @@ std::int64_t set_deformable(Model& model, State& state, const std::vector<int>& 
   }
   if (changed == 0)
     return 0;
+  turn_preloads(model, state, leaves);
   std::vector<Rigid> stay;
   for (std::size_t i = 0; i < leaves.size(); ++i)
     if (!leaves[i])

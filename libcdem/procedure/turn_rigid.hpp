@@ -2,9 +2,9 @@
 //
 // A block that becomes rigid keeps its present shape, its stress, its momentum and its spin; the part of the velocities
 // that deforms the block is lost. A block that becomes deformable gives every node v + w x r with the spin w of its
-// angular momentum. R then turns its stress (R sigma R^T) and the slip of its broken faces; until then both are stored
-// in the directions in which the block was made rigid. The change of energy, mostly the kinetic energy of deformation,
-// goes to EnergyLedger::fictitious, so that the balance stays closed.
+// angular momentum. R then turns its stress (R sigma R^T), the slip of its broken faces and the preload of its freed ones;
+// until then they are stored in the directions in which the block was made rigid. The change of energy, mostly the kinetic
+// energy of deformation, goes to EnergyLedger::fictitious, so that the balance stays closed.
 #pragma once
 
 #include "libcdem/state/state.hpp"

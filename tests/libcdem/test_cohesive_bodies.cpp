@@ -1,7 +1,9 @@
 // Bodies that are continuous until they crack: nothing changes while they are whole, nothing jumps when nodes are freed,
 // they crack at their strength whichever way the mesh lies, and a crack takes its fracture energy.
+#include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/fracture/critical_plane.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
+#include "libcdem/procedure/turn_rigid.hpp"
 #include "libcdem/results/energy.hpp"
 #include "tests/libcdem/cohesive_concrete.hpp"
 #include "tests/libcdem/going_on.hpp"
@@ -405,4 +407,44 @@ TEST_CASE("cohesive bodies: wrong input is refused", "[cohesive][input]") {
         body.joint.tensile_strength = 0;
       },
       "tensile_strength");
+}
+
+TEST_CASE("cohesive: a body that turns while it is rigid goes on as it would have without",
+          "[cohesive][rigid]") {
+  const Vec3 turn = 90 * degree * Vec3(0.3, 0.4, std::sqrt(0.75));
+  const auto ends = [](const Vec3& by) {
+    System s(build({concrete_body(unstructured({0.4, 0.1, 0.1}, 0.05))}));
+    // The wave of an impact frees nodes and hardly cracks faces.
+    for (std::size_t i = 0; i < s.state.velocity.size(); ++i)
+      s.state.velocity[i].x = s.model.node_position[i].x() > 0.2 ? 1 : 0;
+    cdem::RunOptions options;
+    options.duration = 2e-5;
+    s.run(options);
+    std::int64_t preloaded = 0;
+    each_face(s.model.mesh, [&](const cdem::MeshChunk&, std::int64_t batch, int lane) {
+      preloaded += s.state.faces[batch].preloaded[lane];
+    });
+    CHECK(preloaded > 50);
+    cdem::set_rigid(s.model, s.state, {0});
+    cdem::RigidState& motion = s.state.rigid[0];
+    motion.velocity = motion.angular_momentum = {};
+    const Vec3 centroid = cdem::vec(motion.centroid);
+    cdem::turn_by(motion, by);
+    cdem::place_nodes(s.model, s.state, 0);
+    cdem::set_deformable(s.model, s.state, {0});
+    options.duration = 0;
+    options.steps = 30;
+    s.run(options);
+    std::vector<Vec3> from_centroid;
+    for (std::size_t i = 0; i < s.state.displacement.size(); ++i)
+      from_centroid.push_back(s.model.node_position[i] + vec(s.state.displacement[i]) - centroid);
+    return from_centroid;
+  };
+  const std::vector<Vec3> straight = ends(Vec3::Zero()), turned = ends(turn);
+  REQUIRE(turned.size() == straight.size());
+  const Mat3 r = rotation(turn.normalized(), turn.norm());
+  double most = 0; // m
+  for (std::size_t i = 0; i < turned.size(); ++i)
+    most = std::max(most, (turned[i] - r * straight[i]).norm());
+  CHECK(most < 1e-12);
 }
