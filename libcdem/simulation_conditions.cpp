@@ -314,10 +314,10 @@ void Simulation::check_run(double begin, double end) {
 
 bool Simulation::anything_acts() const {
   const Conditions& c = impl_->conditions;
-  if (c.load() || !c.quiets.empty())
+  if (c.load() || !c.quiets.empty() || !c.crack_pressures.empty())
     return true;
   const State& s = impl_->whole();
-  if (!s.water_pressure.empty())
+  if (!s.water_pressure.empty() || !s.excavation.empty())
     return true;
   const auto moves = [](const Fix& fix) { return fix.displacement || fix.velocity; };
   const auto is_nonzero = [](const Node& n) { return n.x != 0 || n.y != 0 || n.z != 0; };
@@ -327,10 +327,12 @@ bool Simulation::anything_acts() const {
         return true;
     return false;
   };
+  const auto is_tight = [](const BoltNode& bolt) { return bolt.grout != 0; };
   const auto is_stressed = [](const Stress& stress) {
     return std::any_of(stress.begin(), stress.end(), [](double x) { return x != 0; });
   };
   return std::any_of(c.fixes.begin(), c.fixes.end(), moves) ||
+         std::any_of(s.bolts.begin(), s.bolts.end(), is_tight) ||
          std::any_of(s.displacement.begin(), s.displacement.end(), is_nonzero) ||
          std::any_of(s.velocity.begin(), s.velocity.end(), is_nonzero) ||
          std::any_of(s.initial_stress.begin(), s.initial_stress.end(), is_stressed) ||

@@ -1,9 +1,10 @@
 // How far a state is from small strain, and whether anything acts on a model.
-#include "tests/libcdem/system.hpp"
+#include "tests/libcdem/cohesive_concrete.hpp"
 
 #include "libcdem/results/deformation.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
+#include "libgeom/mesh/box_mesh.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -42,7 +43,7 @@ TEST_CASE("a block's turn is found to second order, with the strain theta^2 / 2 
   CHECK(d.strain == Approx(0.5 * theta * theta).epsilon(theta * theta));
 }
 
-TEST_CASE("loads, moved supports, initial stress and velocity act, a support that only holds does not",
+TEST_CASE("loads, moved supports, tight bolts, initial stress and velocity act, what only holds does not",
           "[model]") {
   const auto fresh = [] { return simulation(geom::grid({0.2, 0.1, 0.1}, {2, 1, 1})); };
   cdem::Simulation s = fresh();
@@ -65,5 +66,27 @@ TEST_CASE("loads, moved supports, initial stress and velocity act, a support tha
   CHECK(s.anything_acts());
   s = fresh();
   s.traction(traction(cdem::Selection::side("x+"), {1e6, 0, 0}));
+  CHECK(s.anything_acts());
+  for (const double pretension : {0.0, 1e4}) {
+    s = fresh();
+    cdem::Bolt bolt;
+    bolt.from = {0, 0.05, 0.05};
+    bolt.to = {0.2, 0.05, 0.05};
+    bolt.area = 1e-4;
+    bolt.youngs_modulus = 200e9;
+    bolt.grout_stiffness = 1e9;
+    bolt.plate = true;
+    bolt.free_length = 0.1;
+    bolt.pretension = pretension;
+    s.bolt(bolt);
+    CHECK(s.anything_acts() == (pretension > 0));
+  }
+  cdem::ModelSpec spec;
+  spec.bodies = {concrete_body(geom::box_mesh({0.2, 0.1, 0.1}, {2, 1, 1}, 0))};
+  s = cdem::Simulation(spec, 1, nullptr);
+  CHECK_FALSE(s.anything_acts());
+  cdem::CrackPressure gas;
+  gas.pressure = [](double) { return 1e6; };
+  s.crack_pressure(gas);
   CHECK(s.anything_acts());
 }
