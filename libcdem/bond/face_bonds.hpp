@@ -42,14 +42,21 @@ struct FaceBreak {
   double slip[2] = {}, shear[2] = {};             // m, N, as in FaceSlip, right after
 };
 
+// What the pressure in a crack gives the corners of a face (load/crack_pressure.hpp).
+struct CrackPush {
+  FaceNodes nodes;
+  geom::Vec3 push = geom::Vec3::Zero();   // N, on each corner of side b, the opposite on side a
+  geom::Vec3 before = geom::Vec3::Zero(); // m/s, by which corners of b left those of a before the step, sum
+};
+
 struct FaceSums {
-  double friction = 0; // J, this step
-  double breaking = 0; // J, this step
-  CrackEnergy crack;   // J, this step: what of `breaking` went into cracks
-  double damping = 0;  // J, this step, of the tetrahedra of the same chunk
-  double plastic = 0;  // J, likewise
-  double external = 0; // J, this step, work of the pressure in cracks (load/crack_pressure.hpp)
-  double applied2 = 0; // N2, squares of its forces on corners of faces
+  double friction = 0;           // J, this step
+  double breaking = 0;           // J, this step
+  CrackEnergy crack;             // J, this step: what of `breaking` went into cracks
+  double damping = 0;            // J, this step, of the tetrahedra of the same chunk
+  double plastic = 0;            // J, likewise
+  std::vector<CrackPush> pushes; // by the pressure in cracks, this step
+  double applied2 = 0;           // N2, squares of these forces
   std::vector<FaceBreak> broken;
   // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;
   // -1: none. Only where nothing takes it over.

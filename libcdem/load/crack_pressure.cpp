@@ -123,8 +123,7 @@ CrackLoad resolve(const Model& model, const State& state, const CrackPressure& g
       centre += model.node_position[node] / 3;
     load.faces[batch * lanes + lane] = selects_place(model, given.on, centre, chunk.block) ? 1 : 0;
   });
-  load.pressure = load.before =
-      pressure_of(load, state.time, given.volume ? crack_volume(model, state, load) : 0);
+  load.pressure = pressure_of(load, state.time, given.volume ? crack_volume(model, state, load) : 0);
   return load;
 }
 
@@ -139,7 +138,6 @@ void update_crack_pressures(const Model& model, const State& state, Range own, d
       load.frequency2 =
           8 * load.given.bulk_modulus / load.given.reservoir * measures.sums.value(1) * measures.thinnest;
     }
-    load.before = load.pressure;
     load.pressure = pressure_of(load, time, measures.sums.value(0));
   }
 }
@@ -150,16 +148,29 @@ void add_crack_pressures(const Model& model, const State& state, const MeshChunk
   for (const CrackLoad& load : loads)
     each_wet_face(state, chunk, load, [&](std::int64_t batch, int lane, double part) {
       const FaceNodes at = places_of(model.mesh.faces[batch], lane);
-      const Vec3 third = part / 3 * mean_area(at, [&](int place) { return vec(motion.position[place]); });
-      const Vec3 push = load.pressure * third;
-      sums.applied2 += 6 * push.squaredNorm();
+      CrackPush to;
+      to.nodes = face_nodes(model.mesh, chunk, batch, lane);
+      to.push =
+          load.pressure * part / 3 * mean_area(at, [&](int place) { return vec(motion.position[place]); });
+      sums.applied2 += 6 * to.push.squaredNorm();
       for (int i = 0; i < 3; ++i) {
-        add(force[at.a[i]], -push);
-        add(force[at.b[i]], push);
-        sums.external += 0.5 * motion.step * (load.before + load.pressure) *
-                         third.dot(vec(motion.velocity[at.b[i]]) - vec(motion.velocity[at.a[i]]));
+        add(force[at.a[i]], -to.push);
+        add(force[at.b[i]], to.push);
+        to.before += vec(motion.velocity[at.b[i]]) - vec(motion.velocity[at.a[i]]);
       }
+      sums.pushes.push_back(to);
     });
+}
+
+double crack_work(const State& state, const std::vector<CrackPush>& pushes, double kick) {
+  double work = 0;
+  for (const CrackPush& of : pushes) {
+    Vec3 after = Vec3::Zero();
+    for (int i = 0; i < 3; ++i)
+      after += vec(state.velocity[of.nodes.b[i]]) - vec(state.velocity[of.nodes.a[i]]);
+    work += 0.5 * kick * of.push.dot(of.before + after);
+  }
+  return work;
 }
 
 double crack_time_step(const std::vector<CrackLoad>& loads, double stable) {

@@ -9,6 +9,8 @@
 //
 //   p = max(0, K (V(t) - V_c) / V_0),   V_c = sum over the wet faces of D A n . (mean opening)
 //
+// Its work is counted as that of other loads: the forces of a step times the mean of the velocities before and after it.
+//
 // The pressure is the same everywhere: the fluid has no viscosity. V_c is taken at the beginning of the step, so the fluid
 // is a spring that couples all wet faces. Its frequency w bounds the time step; by Gershgorin, with the masses of nodes at
 // least those of single tets (density rho, volume V), of which at most three faces are wet:
@@ -26,7 +28,6 @@ struct CrackLoad {
   CrackPressure given;
   std::vector<char> faces; // batch * lanes + lane: 1 takes it
   double pressure = 0;     // Pa, now
-  double before = 0;       // Pa, a step earlier
   double frequency2 = 0;   // 1/s2, w^2 above; 0: the pressure is given
 };
 
@@ -38,9 +39,13 @@ CrackLoad resolve(const Model&, const State&, const CrackPressure&);
 // Pressures at `time`. own: chunks of the mesh in which this rank measures cracks.
 void update_crack_pressures(const Model&, const State&, Range own, double time, std::vector<CrackLoad>&);
 
-// Adds the forces on the nodes of a chunk (N, per place), and to the sums their squares and their work in the last step.
+// Adds the forces on the nodes of a chunk (N, per place), and to the sums what they are and their squares.
 void add_crack_pressures(const Model&, const State&, const MeshChunk&, const std::vector<CrackLoad>&,
                          const FaceMotion&, Node* force, FaceSums&);
+
+// Their work in a step, J, once the nodes have moved. kick: s, from the time of the velocities before it to that of those
+// after it; 1 in a relaxation.
+double crack_work(const State&, const std::vector<CrackPush>&, double kick);
 
 // Volume of all cracks that take the load, m3.
 double crack_volume(const Model&, const State&, const CrackLoad&);

@@ -180,9 +180,10 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     add_pressure_averages(averaged, stress, at.force);
   if (sides.count > 0)
     add_side_forces(sides, at.position, stress, damping.viscous, at.force);
-  sums.friction = sums.breaking = sums.external = sums.applied2 = 0;
+  sums.friction = sums.breaking = sums.applied2 = 0;
   sums.crack = {};
   sums.broken.clear();
+  sums.pushes.clear();
   sums.astray = -1;
   sums.hands_over = false;
   if (chunk.faces > 0) {

@@ -106,7 +106,6 @@ std::int64_t record_face_breaks(const Model& model, State& state, Workspace& wor
     state.spent.breaking += sums.breaking;
     state.spent.damping += sums.damping;
     state.spent.plastic += sums.plastic;
-    state.spent.external += sums.external;
     if (sums.hands_over) {
       work.contact.search.fragments_due = true;
       work.contact.search.told_due[chunk.block] = 1;

@@ -9,8 +9,8 @@ namespace {
 
 bool is_zero(const FaceSums& sums) {
   return sums.friction == 0 && sums.breaking == 0 && sums.damping == 0 && sums.plastic == 0 &&
-         sums.external == 0 && sums.crack.tension == 0 && sums.crack.shear == 0 && sums.broken.empty() &&
-         sums.astray < 0 && !sums.hands_over;
+         sums.crack.tension == 0 && sums.crack.shear == 0 && sums.broken.empty() && sums.astray < 0 &&
+         !sums.hands_over;
 }
 
 bool is_zero(const SpringSums& sums) {
@@ -28,7 +28,6 @@ void each_member(Sums& sums, Act& act) {
   if constexpr (std::is_same_v<std::remove_const_t<Sums>, FaceSums>) {
     act(sums.crack);
     act(sums.plastic);
-    act(sums.external);
     act(sums.astray);
     act(sums.hands_over);
   } else {

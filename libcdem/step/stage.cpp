@@ -147,6 +147,7 @@ void Stage::update_loads(const Stepping* stepping) {
   const double time = context_.state.time;
   if (stepping) {
     time_step_ = stepping->time_step; // it may have become shorter since nodes were split
+    kick_ = stepping->kick;
     advance_columns(r, context_.state, {time, stepping->time_step, stepping->kick});
     update_supports(r, time + 0.5 * stepping->time_step);
   } else if (r.bolts.empty() && !in_water(r)) {
@@ -425,9 +426,8 @@ void Stage::sample_start() {
   RunLog& log = context_.log;
   if (!log.history.empty() && log.history.back().stage == context_.number)
     return; // a stage of several loops, or one that goes on
-  // Probes read stresses, and the pressure in cracks works where stresses are advanced.
   std::optional<SynchronisedView> view;
-  if (!begins_ && !(context_.log.probes.empty() && context_.conditions.crack_pressures.empty()))
+  if (!begins_ && !context_.log.probes.empty())
     view.emplace(*this, SynchronisedView::Of::whole);
   see_whole();
   record_history(context_, 0, kinetic_energy(context_.model, context_.state), tets_by_place_);

@@ -161,6 +161,7 @@ private:
   ContactUpdate contacts_;
   StrengthWatch watch_;   // empty without cohesive bodies
   double time_step_ = 0;  // s, of the step to come
+  double kick_ = 1;       // s, Stepping::kick of the step; 1 in a relaxation
   BegunCracks begun_;     // in this step
   std::vector<int> slid_; // interfaces to renew before the next step
   bool begins_ = true;    // no step of this stage, or of one that it goes on from, has been made before

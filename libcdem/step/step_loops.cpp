@@ -148,7 +148,11 @@ void Stage::rigid_bodies(Procedure& by) {
 }
 
 void Stage::sum_up() {
+  const Range cracks = work.resolved.cracks.empty() ? Range() : work.part().mesh_chunks();
   work.shared->share_nodes(context_.state);
+  for (std::int64_t c = cracks.begin; c < cracks.end; ++c)
+    work.node_sums[stars_of(context_.model) + c].external +=
+        crack_work(context_.state, work.face_sums[c].pushes, kick_);
   std::int64_t tellers = has_to_tell(work, begun_) ? 1 : 0;
   report.sums = sums_of(work, tellers);
   share_sums(work, begun_, tellers);
