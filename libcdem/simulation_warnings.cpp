@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/facet_traction.hpp"
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/resolve.hpp"
 #include "libcdem/results/fields.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double least_weight = 1e-9; // of a node in the value at a place; less is rounding
 constexpr double tellable = 0.01;     // share of a load that a support takes
+constexpr double beyond_doubt = 1.25; // parts of its strength that a whole facet carries
 
 bool holds_still(const HeldNode& node) {
   const auto none = [](const Node& n) { return n.x == 0 && n.y == 0 && n.z == 0; };
@@ -172,6 +174,33 @@ void Warnings::of_falling_forces() {
                    "they are now, up to {:.3g} of their full size; call model:run until "
                    "then, or model:relax_excavation{{}}",
                    end, share));
+}
+
+// Between joined blocks without zones, which do not see bending by themselves. Strengths that follow the rate are not known here.
+void Warnings::of_bent_facets(bool in_real_time) {
+  if (!may_have_facets(model_))
+    return;
+  std::map<int, FacetTraction> worst; // by body
+  for (const FacetTraction& facet : facet_tractions(model_, of_.whole())) {
+    const Body& body = model_.bodies[facet.body];
+    if (facet.utilisation > beyond_doubt && facet.is_bent() && !(in_real_time && body.has_rate_effect()) &&
+        bent_.count(body.name) == 0)
+      if (const auto at = worst.try_emplace(facet.body, facet).first;
+          facet.utilisation > at->second.utilisation)
+        at->second = facet;
+  }
+  for (const auto& [number, facet] : worst) {
+    const std::string& name = model_.bodies[number].name;
+    bent_.insert(name);
+    tell(fmt::format("bonds = \"cohesive\" of body \"{}\": a joint between two blocks without zones is whole "
+                     "and carries {:.3g} "
+                     "times its strength at ({:.4g}, {:.4g}, {:.4g}) m, by the force and the moment that "
+                     "pass through it; the "
+                     "tetrahedra beside it do not see bending, so it would break far too late: give the body "
+                     "zone_size = {:.3g}",
+                     name, facet.utilisation, facet.worst.x(), facet.worst.y(), facet.worst.z(),
+                     facet.least_extent / 4));
+  }
 }
 
 void Warnings::of_initial_stress(const InitialStress& field) {
