@@ -139,6 +139,13 @@ if with_of_seed("waves", 4) then
     try("waves", function() model:flow{ on = "b" .. i, water = water, drag = 1, added_mass = seed % 2 == 0 and 0.5 or 0 } end)
   end
 end
+if with_of_seed("gas", 3) then
+  for i = 1, count do
+    local load = { on = "b" .. i, pressure = 2e5, amplitude = { { 0, 0 }, { 0.01, 1 } } }
+    if seed % 2 == 0 then load.pressure, load.volume, load.bulk_modulus, load.reservoir = nil, 1e-3, 1e8, 0.01 end
+    if kinds[i] == "cohesive" then try("gas", function() model:crack_pressure(load) end) end
+  end
+end
 if with("probe", 0.3) then
   try("probe", function() model:probe{ name = "stress", field = "stress.zz", at = { 0, 0, -0.1 } } end)
 end

@@ -20,7 +20,7 @@ ways=${4:-empty1 empty3 empty40 divided read files ranks2 ranks3 threads2 baseli
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
-features="softening weibull rate zones rigid_floor restitution velocity spin traction flow water waves probe relax make_rigid
+features="softening weibull rate zones rigid_floor restitution velocity spin traction flow water waves gas probe relax make_rigid
 make_deformable remove gradual"
 
 grep -q avx2 /proc/cpuinfo || ways=${ways//avx2/}
