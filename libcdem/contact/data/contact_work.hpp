@@ -94,7 +94,7 @@ struct ContactWork {
   std::vector<double>
       block_forces; // N, per block, of all springs that pressed on it before the step; with restitution
   std::vector<double> block_stiffness; // N/m, per block, of the same springs; with restitution
-  // N, per block that deforms: sums of the forces of that name of these contacts.
+  // N, per block: sums of the forces of that name of its contacts with or of a block that deforms.
   std::vector<double> block_felt, block_usual;
   std::vector<BlockMotion> block_motion; // per block, of those that touched before the step; with restitution
 

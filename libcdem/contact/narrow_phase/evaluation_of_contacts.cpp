@@ -96,7 +96,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       motion.part_of_rest =
           part_of_rest(work_.step, frequency_on_contacts(model_, work_, from.block, to.block));
       motion.deformable = model_.blocks[from.block].rigid < 0 || model_.blocks[to.block].rigid < 0;
-      motion.felt_over_usual = felt_over_usual(model_, work_, from.block, to.block);
+      motion.felt_over_usual = felt_over_usual(work_, from.block, to.block);
       if (!old)
         go_on_if_opened(c);
       set_approach(c, law, arms, velocity, from, to, motion);

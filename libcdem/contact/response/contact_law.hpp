@@ -33,8 +33,9 @@
 //   N = M (sum of P) / (sum of M),   u = min(1, 2 p_rest / p_peak)
 //   dM / dt = (F - M) omega / (60 u^6),   dP / dt = (F - P) omega / (2 u^6)
 //
-// The sums go over the contacts of both bodies before the step. So each contact has its mean share, and all together have the friction
-// of the whole normal force of a third of an oscillation before: on a ground that shakes, or when a load comes on at once.
+// The sums go over all contacts of that one of the two bodies that is pressed less, before the step. So each contact has its mean
+// share, and all together have the friction of the whole normal force of a third of an oscillation before: on a ground that shakes,
+// or when a load comes on at once.
 //
 // p_peak is the largest p, and fades as p_rest does. In an impact, and as long as a body bounces higher than it rests, u is
 // next to nothing, and M and P are F itself. A contact that opens for less than 2 pi / omega goes on with p_rest, p_peak, M and P.
