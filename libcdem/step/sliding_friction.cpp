@@ -18,11 +18,8 @@ bool deforms(const Model& model, int block) {
 
 } // namespace
 
-void SlidingFriction::look(const Model& model, const State& state, const std::vector<char>& broken) {
-  const double passed = state.time - last_look;
-  last_look = state.time;
-  if (!(passed > 0) || state.contacts.empty())
-    return;
+void SlidingFriction::look(const Model& model, const State& state, const std::vector<char>& broken,
+                           double time) {
   std::map<int, BlockMotion> motions;
   const auto velocity = [&](int block, const geom::Vec3& place) -> geom::Vec3 {
     const auto [entry, fresh] = motions.try_emplace(block);
@@ -52,17 +49,25 @@ void SlidingFriction::look(const Model& model, const State& state, const std::ve
     std::array<int, 2> bodies{model.blocks[source].body, model.blocks[target].body};
     std::sort(bodies.begin(), bodies.end());
     Sums& sums = now[bodies];
-    sums.law += passed * law.tan_friction * normal * v.norm();
-    sums.done -= passed * c.shear.dot(v);
-    sums.slip += passed * normal * v.squaredNorm();
-    sums.contact += passed * normal * v.dot(w);
+    sums.law += time * law.tan_friction * normal * v.norm();
+    sums.done -= time * c.shear.dot(v);
+    sums.slip += time * normal * v.squaredNorm();
+    sums.contact += time * normal * v.dot(w);
+    sums.way += (source < target ? time : -time) * normal * v;
+    sums.span += time * normal *
+                 std::cbrt(std::min(model.blocks[source].mass.volume, model.blocks[target].mass.volume));
   }
   for (const auto& [bodies, sums] : now) {
+    if (!(sums.law > 0))
+      continue;
     Sums& all = of_bodies[bodies];
     all.law += sums.law;
     all.done += sums.done;
     all.slip += sums.slip;
     all.contact += sums.contact;
+    all.way += sums.way;
+    all.span += sums.span;
+    all.time += time;
     ++all.looks;
   }
 }

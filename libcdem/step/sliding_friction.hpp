@@ -2,6 +2,8 @@
 // its contacts reverses, others stick, and the sum of their friction is less (Adams 1998, J. Appl. Mech. 65, 470-475).
 #pragma once
 
+#include "libgeom/core/types.hpp"
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -20,15 +22,19 @@ struct SlidingFriction {
     double done = 0;    // J, sum of the work of friction on v
     double slip = 0;    // N m2/s, sum of N v.v dt
     double contact = 0; // N m2/s, sum of N v.w dt: as much as `slip` where the sole goes with the body
+    geom::Vec3 way = geom::Vec3::Zero(); // N m, sum of N v dt, of the first past the second
+    double span = 0; // N m s, sum of N L dt, L the edge of a cube as large as the smaller block
+    double time = 0; // s
     std::int64_t looks = 0;
 
-    bool slides() const { return contact > 0.7 * slip && contact < 1.3 * slip; }
+    // The soles go with the bodies, which on the whole have moved past each other by more than what gives.
+    bool slides() const {
+      return contact > 0.7 * slip && contact < 1.3 * slip && way.norm() * time > 1e-4 * span;
+    }
   };
   std::map<std::array<int, 2>, Sums> of_bodies;
-  double last_look = 0; // s
-
-  // Some hundred steps after the last time. broken: per block; pieces move by themselves and do not count.
-  void look(const Model&, const State&, const std::vector<char>& broken);
+  // time: s, since the last look, some hundred steps ago. broken: per block; pieces move by themselves and do not count.
+  void look(const Model&, const State&, const std::vector<char>& broken, double time);
 };
 
 } // namespace cdem

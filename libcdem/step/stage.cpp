@@ -247,7 +247,9 @@ void Stage::look_at_sliding() {
   if (!in_real_time || !context_.sliding || context_.model.surface.empty())
     return;
   see_whole();
-  context_.sliding->look(context_.model, context_.state, work.contact.movers.broken);
+  const double before = std::exchange(sliding_seen_, context_.state.time);
+  context_.sliding->look(context_.model, context_.state, work.contact.movers.broken,
+                         context_.state.time - before);
 }
 
 // Contact is told of the bonds of a block when a face is handed over, or an interface left to contact, of it or of those that
