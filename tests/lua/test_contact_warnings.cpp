@@ -109,3 +109,24 @@ m:run{ duration = 0.1 }
   CHECK(told(0.5, 33).empty());
   CHECK(told(1, 25).empty()); // it stands
 }
+
+TEST_CASE("a block that sticks to a ground which shakes is not told of as one that slides",
+          "[lua][contact]") {
+  const std::vector<std::string> told = warnings_of(R"(
+local cdem = require "cdem"
+local stone = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
+local floor = cdem.box_mesh{ size = {1.5, 1.5, 0.1}, divisions = {2, 2, 1}, origin = {-0.2, -0.2, -0.1} }
+local block = cdem.box_mesh{ size = {1, 1, 0.25}, divisions = {2, 2, 1}, origin = {0.03, 0.02, 0} }
+local m = cdem.model{ bodies = { { name = "floor", material = stone, element = "rigid", shape = floor },
+                                 { name = "block", material = stone, shape = block } },
+                      contacts = { { "floor", "block", cdem.coulomb{ friction_angle = 40, thickness = 2 } } } }
+m:fix{ on = "floor" }
+m:gravity{ vector = {0, 0, -9.81} }
+m:relax{}
+local begin, omega = m.time, 2 * math.pi * 30
+m:fix{ on = "floor", velocity = {0.3 * 9.81 / omega, 0, 0},
+       amplitude = function(t) return math.sin(omega * (t - begin)) * math.min(1, 10 * (t - begin)) end }
+m:run{ duration = 0.5 }
+)");
+  CHECK(those_with(told, "they slide").empty());
+}

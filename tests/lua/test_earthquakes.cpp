@@ -164,7 +164,8 @@ TEST_CASE("bolts in a script", "[lua][bolts]") {
 }
 
 // Newmark's block on a ground that shakes up and down. A friction that lags behind its normal force holds it altogether.
-TEST_CASE("a deformable block slides while a ground that shakes upwards takes weight off it", "[lua][contact]") {
+TEST_CASE("a deformable block slides while a ground that shakes upwards takes weight off it",
+          "[lua][contact]") {
   Script script(R"(
 local cdem = require "cdem"
 local g, frequency, cycles, pull = 9.81, 50, 4, 0.45
@@ -188,6 +189,38 @@ for i = 1, cycles * 2000 do
 end
 local slid = m:mean("displacement.x", "block") - start
 assert(math.abs(slid / x - 1) < 0.1, "slid " .. slid .. " m where a rigid block slides " .. x)
+)");
+  script.run();
+}
+
+TEST_CASE("the friction of a plate does not feel what presses on its deformable ground far off",
+          "[lua][contact]") {
+  Script script(R"(
+local cdem = require "cdem"
+local stone = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
+local rough = cdem.coulomb{ friction_angle = 30, restitution = 0.5 }
+local function slid(pressure)
+  local m = cdem.model{
+    bodies = { { name = "floor", material = stone,
+                 shape = cdem.box_mesh{ size = {6, 2, 0.5}, divisions = {12, 4, 1}, origin = {-1, -0.5, -0.5} } },
+               { name = "plate", material = stone,
+                 shape = cdem.box_mesh{ size = {1, 1, 0.25}, divisions = {2, 2, 1}, origin = {-0.47, 0.02, 0} } },
+               { name = "heavy", material = stone,
+                 shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2}, origin = {3.03, 0.02, 0} } } },
+    contacts = { { "floor", "plate", rough }, { "floor", "heavy", rough } } }
+  m:fix{ on = cdem.select.plane{ point = {0, 0, -0.5}, normal = {0, 0, 1} } }
+  m:fix{ on = "heavy", axes = "xy" }
+  m:gravity{ vector = {0, 0, -9.81} }
+  m:relax{}
+  local begin = m.time
+  m:gravity{ vector = {0.65 * 9.81, 0, -9.81} }
+  m:traction{ on = cdem.select.plane{ point = {0, 0, 1}, normal = {0, 0, 1} }, pressure = pressure,
+              amplitude = function(t) return (t - begin) / 0.05 end }
+  m:run{ duration = 0.05 }
+  return m:mean("displacement.x", "plate")
+end
+local alone, beside = slid(1), slid(2e6)
+assert(math.abs(beside / alone - 1) < 0.02, "slid " .. beside .. " m beside, " .. alone .. " m alone")
 )");
   script.run();
 }
