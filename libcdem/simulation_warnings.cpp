@@ -5,6 +5,7 @@
 #include "libcdem/fracture/facet_traction.hpp"
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/resolve.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/tet_at_place.hpp"
 #include "libcdem/state/places.hpp"
@@ -179,6 +180,10 @@ void Warnings::of_falling_forces() {
 // Between joined blocks without zones, which do not see bending by themselves. Strengths that follow the rate are not known here.
 void Warnings::of_bent_facets(bool in_real_time) {
   if (!may_have_facets(model_))
+    return;
+  // Where waves run, a facet may be beyond its strength for less time than a crack takes, and inertia makes its share uncertain.
+  const EnergyLedger energy = cdem::energy(model_, of_.whole());
+  if (in_real_time && energy.kinetic > 0.01 * (energy.elastic + energy.springs))
     return;
   std::map<int, FacetTraction> worst; // by body
   for (const FacetTraction& facet : facet_tractions(model_, of_.whole())) {

@@ -49,8 +49,12 @@ void check_contacts(const Model& model, const State& state) {
     require_below(std::string("contacts.") + field, t, triangles);
   };
   const auto check = [&](const Contact& c) {
-    if (!(c.at_rest >= 0))
-      refuse_state("contacts.at_rest", std::to_string(c.at_rest) + " is out of range");
+    for (const auto& [field, value] : {std::pair("contacts.at_rest", c.at_rest),
+                                       {"contacts.peak", c.peak},
+                                       {"contacts.usual_force", c.usual_force},
+                                       {"contacts.felt_force", c.felt_force}})
+      if (!(value >= 0 && std::isfinite(value)))
+        refuse_state(field, std::to_string(value) + " is out of range");
     if (c.kind == Contact::tets) {
       require_below("contacts.source", c.source, model.tets.size());
       require_below("contacts.target", c.target, model.tets.size());

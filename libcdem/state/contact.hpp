@@ -31,7 +31,7 @@ struct Contact {
   double at_rest = 0;     // m, mean effective penetration over some ten oscillations; with restitution
   double peak = 0;        // m, largest effective penetration; fades as that mean
   double usual_force = 0; // N, mean of its normal force over some ten oscillations
-  double felt_force = 0;  // N, the same over a third of one
+  double felt_force = 0;  // N, the same over two thirds of one
   double stiffness = 0;   // N/m, of its normal spring (as_stiff_as); 0: that of its law
 
   explicit Contact(Kind of = spring, int from = 0)

@@ -45,30 +45,31 @@ void SlidingFriction::look(const Model& model, const State& state, const std::ve
     const auto along = [&](const geom::Vec3& v) -> geom::Vec3 { return v - v.dot(c.normal) * c.normal; };
     const geom::Vec3 v = along(velocity(source, place) - velocity(target, place)),
                      w = along(velocity_past(state, arms));
-    const double normal = std::max(0.0, normal_force(c, law));
+    const double normal = time * std::max(0.0, normal_force(c, law)), limit = law.tan_friction * normal;
     std::array<int, 2> bodies{model.blocks[source].body, model.blocks[target].body};
     std::sort(bodies.begin(), bodies.end());
     Sums& sums = now[bodies];
-    sums.law += time * law.tan_friction * normal * v.norm();
+    sums.law += (source < target ? limit : -limit) * v;
     sums.done -= time * c.shear.dot(v);
-    sums.slip += time * normal * v.squaredNorm();
-    sums.contact += time * normal * v.dot(w);
-    sums.way += (source < target ? time : -time) * normal * v;
-    sums.span += time * normal *
-                 std::cbrt(std::min(model.blocks[source].mass.volume, model.blocks[target].mass.volume));
+    sums.path += limit * v.norm();
+    sums.slip += normal * v.squaredNorm();
+    sums.contact += normal * v.dot(w);
+    sums.span +=
+        limit * std::cbrt(std::min(model.blocks[source].mass.volume, model.blocks[target].mass.volume));
   }
   for (const auto& [bodies, sums] : now) {
-    if (!(sums.law > 0))
+    if (!std::isfinite(sums.path))
       continue;
     Sums& all = of_bodies[bodies];
+    if (sums.path > 0.01 * all.path)
+      ++all.looks;
     all.law += sums.law;
     all.done += sums.done;
+    all.path += sums.path;
     all.slip += sums.slip;
     all.contact += sums.contact;
-    all.way += sums.way;
     all.span += sums.span;
     all.time += time;
-    ++all.looks;
   }
 }
 

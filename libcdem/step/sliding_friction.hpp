@@ -18,18 +18,19 @@ struct SlidingFriction {
   // Of two bodies, smaller first, over the contacts between a block that deforms and another one. v: slip of the two blocks
   // there if each moved as a rigid body, w: of the contact itself, both along its face.
   struct Sums {
-    double law = 0;     // J, sum of tan(phi) N |v| dt
-    double done = 0;    // J, sum of the work of friction on v
-    double slip = 0;    // N m2/s, sum of N v.v dt
-    double contact = 0; // N m2/s, sum of N v.w dt: as much as `slip` where the sole goes with the body
-    geom::Vec3 way = geom::Vec3::Zero(); // N m, sum of N v dt, of the first past the second
-    double span = 0; // N m s, sum of N L dt, L the edge of a cube as large as the smaller block
-    double time = 0; // s
-    std::int64_t looks = 0;
+    // N m, sum of tan(phi) N v dt, of the first past the second: what shakes to and fro does not count.
+    geom::Vec3 law = geom::Vec3::Zero();
+    double done = 0;        // J, sum of the work of friction on v
+    double path = 0;        // J, sum of tan(phi) N |v| dt
+    double slip = 0;        // N m2/s, sum of N v.v dt
+    double contact = 0;     // N m2/s, sum of N v.w dt: as much as `slip` where the sole goes with the body
+    double span = 0;        // J s, sum of tan(phi) N L dt, L the edge of a cube as large as the smaller block
+    double time = 0;        // s
+    std::int64_t looks = 0; // that found more than a hundredth of the path so far
 
     // The soles go with the bodies, which on the whole have moved past each other by more than what gives.
     bool slides() const {
-      return contact > 0.7 * slip && contact < 1.3 * slip && way.norm() * time > 1e-4 * span;
+      return contact > 0.7 * slip && contact < 1.3 * slip && law.norm() * time > 1e-4 * span;
     }
   };
   std::map<std::array<int, 2>, Sums> of_bodies;

@@ -18,6 +18,7 @@
 #include "libcdem/step/sliding_friction.hpp"
 #include "libcdem/step/synchronised_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
@@ -244,7 +245,9 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
 
 // In a relaxation steps are no times.
 void Stage::look_at_sliding() {
-  if (!in_real_time || !context_.sliding || context_.model.surface.empty())
+  const std::vector<Block>& blocks = context_.model.blocks;
+  if (!in_real_time || !context_.sliding || context_.model.surface.empty() ||
+      std::none_of(blocks.begin(), blocks.end(), [](const Block& b) { return b.meshed && b.rigid < 0; }))
     return;
   see_whole();
   const double before = std::exchange(sliding_seen_, context_.state.time);

@@ -22,6 +22,8 @@ void check_surface(const Model& model) {
   require_parts("surface.block_begin", surface.block_begin, model.blocks.size(), triangles);
   require_length("surface.usual_height", surface.usual_height.size(), model.blocks.size());
   require_length("surface.original", surface.original.size(), nodes);
+  for (const int node : surface.original)
+    below("surface.original", node, nodes);
   for (std::size_t t = 0; t < triangles; ++t) {
     const ContactTriangle& triangle = surface.triangles[t];
     all_below("surface.triangles.nodes", triangle.nodes, nodes);

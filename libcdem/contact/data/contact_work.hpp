@@ -9,8 +9,10 @@
 #include "libcdem/contact/data/surface_edges.hpp"
 #include "libcdem/parallel/chunks.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <unordered_map>
 
 namespace cdem {
 
@@ -72,6 +74,11 @@ struct BlockMotion {
              spin = geom::Vec3::Zero(); // m, m/s, rad/s
 };
 
+// N, of the contacts between two blocks: sums of the forces of that name (state/contact.hpp).
+struct PairForces {
+  double felt = 0, usual = 0;
+};
+
 struct ContactWork {
   ContactOptions options;
   SurfaceSizes sizes;
@@ -94,8 +101,8 @@ struct ContactWork {
   std::vector<double>
       block_forces; // N, per block, of all springs that pressed on it before the step; with restitution
   std::vector<double> block_stiffness; // N/m, per block, of the same springs; with restitution
-  // N, per block: sums of the forces of that name of its contacts with or of a block that deforms.
-  std::vector<double> block_felt, block_usual;
+  std::unordered_map<std::uint64_t, PairForces>
+      pair_forces;                       // by two blocks; likewise, with a block that deforms
   std::vector<BlockMotion> block_motion; // per block, of those that touched before the step; with restitution
 
   std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time

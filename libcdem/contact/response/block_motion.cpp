@@ -7,8 +7,9 @@
 
 #include <Eigen/LU>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace cdem {
 
@@ -34,15 +35,21 @@ BlockMotion motion_of(const Model& model, const State& state, const Block& block
   return motion;
 }
 
+namespace {
+
+std::uint64_t pair_of(int block_a, int block_b) {
+  const auto [low, high] = std::minmax(block_a, block_b);
+  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
+}
+
+} // namespace
+
 void sum_block_forces(const Model& model, const State& state, ContactWork& work) {
   work.block_forces.assign(model.blocks.size(), 0.0);
   work.block_stiffness.assign(model.blocks.size(), 0.0);
-  work.block_felt.assign(model.blocks.size(), 0.0);
-  work.block_usual.assign(model.blocks.size(), 0.0);
+  work.pair_forces.clear();
   struct Sums {
-    ExactSum force, stiffness, felt, usual;
-
-    std::array<ExactSum*, 4> all() { return {&force, &stiffness, &felt, &usual}; }
+    ExactSum force, stiffness;
   };
   std::vector<Sums> on_rigid(model.rigid.size());
   for (const Contact& c : state.contacts) {
@@ -51,43 +58,37 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
     const double stiffness = c.effective_penetration() > 0 ? law_of(model, c).kn : 0,
                  force = stiffness * c.effective_penetration();
     const auto [a, b] = blocks_of(model, c);
-    const bool felt = stiffness > 0 && (model.blocks[a].rigid < 0 || model.blocks[b].rigid < 0);
+    if (stiffness > 0 && (model.blocks[a].rigid < 0 || model.blocks[b].rigid < 0)) {
+      PairForces& pair = work.pair_forces[pair_of(a, b)];
+      pair.felt += c.felt_force;
+      pair.usual += c.usual_force;
+    }
     for (const int block : {a, b})
       if (const int rigid = model.blocks[block].rigid; rigid < 0) {
         work.block_forces[block] += force;
         work.block_stiffness[block] += stiffness;
-        if (felt) {
-          work.block_felt[block] += c.felt_force;
-          work.block_usual[block] += c.usual_force;
-        }
       } else if (keeps(model, work, c)) {
         on_rigid[rigid].force.add(force);
         on_rigid[rigid].stiffness.add(stiffness);
-        if (felt) {
-          on_rigid[rigid].felt.add(c.felt_force);
-          on_rigid[rigid].usual.add(c.usual_force);
-        }
       }
   }
   if (!work.shared->alone() && !on_rigid.empty()) {
     Pack own;
-    for (Sums& sums : on_rigid)
-      for (const ExactSum* sum : sums.all())
+    for (const Sums& sums : on_rigid)
+      for (const ExactSum* sum : {&sums.force, &sums.stiffness})
         sum->tell(own);
     const std::vector<std::string> heard = ranks().gather(own.text(), Ranks::Subject::pressed);
     for (int rank = 0; rank < work.shared->part().size; ++rank) {
       Unpack unpack(heard[rank]);
       for (Sums& sums : on_rigid)
         if (rank != work.shared->part().rank)
-          for (ExactSum* sum : sums.all())
+          for (ExactSum* sum : {&sums.force, &sums.stiffness})
             sum->add_told(unpack);
     }
   }
   for (std::size_t i = 0; i < on_rigid.size(); ++i) {
     work.block_forces[model.rigid[i].block] = on_rigid[i].force.value();
     work.block_stiffness[model.rigid[i].block] = on_rigid[i].stiffness.value();
-    work.block_felt[model.rigid[i].block] = on_rigid[i].felt.value();
-    work.block_usual[model.rigid[i].block] = on_rigid[i].usual.value();
   }
 }
 
@@ -104,9 +105,9 @@ double frequency_on_contacts(const Model& model, const ContactWork& work, int bl
 double felt_over_usual(const ContactWork& work, int block_a, int block_b) {
   if (work.movers.broken[block_a] || work.movers.broken[block_b])
     return 1;
-  // The one that is pressed less: a ground carries others, too.
-  const int block = work.block_usual[block_a] < work.block_usual[block_b] ? block_a : block_b;
-  return work.block_usual[block] > 0 ? work.block_felt[block] / work.block_usual[block] : 1;
+  const auto pair = work.pair_forces.find(pair_of(block_a, block_b));
+  return pair != work.pair_forces.end() && pair->second.usual > 0 ? pair->second.felt / pair->second.usual
+                                                                  : 1;
 }
 
 void find_block_motions(const Model& model, const State& state, ContactWork& work, int threads) {

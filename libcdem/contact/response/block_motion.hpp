@@ -8,14 +8,14 @@
 
 namespace cdem {
 
-// Writes ContactWork::block_forces and block_stiffness, of State::contacts.
+// Writes ContactWork::block_forces, block_stiffness and pair_forces, of State::contacts.
 void sum_block_forces(const Model&, const State&, ContactWork&);
 
 // 1/s, omega of contact_law.hpp, of two blocks that touch each other, by these sums.
 double frequency_on_contacts(const Model&, const ContactWork&, int block_a, int block_b);
 
-// By the same sums: felt over usual forces of all contacts of that one of two blocks that is pressed less. 1 where faces of one of them
-// are broken: their fragments move by themselves.
+// Felt over usual forces of all contacts of two blocks. 1 where faces of one of them are broken: their fragments move by
+// themselves.
 double felt_over_usual(const ContactWork&, int block_a, int block_b);
 
 // By its nodes; not whole where they are too few for a spin.

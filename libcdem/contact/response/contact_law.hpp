@@ -31,11 +31,10 @@
 // and e < 1, friction follows a usual share of what the bodies press with, by two means M and P of F = Fn + D:
 //
 //   N = M (sum of P) / (sum of M),   u = min(1, 2 p_rest / p_peak)
-//   dM / dt = (F - M) omega / (60 u^6),   dP / dt = (F - P) omega / (2 u^6)
+//   dM / dt = (F - M) omega / (60 u^6),   dP / dt = (F - P) omega / (4 u^6)
 //
-// The sums go over all contacts of that one of the two bodies that is pressed less, before the step. So each contact has its mean
-// share, and all together have the friction of the whole normal force of a third of an oscillation before: on a ground that shakes,
-// or when a load comes on at once.
+// The sums go over the contacts between the two bodies before the step. So each contact has its mean share, and all together have
+// the friction of the whole normal force of two thirds of an oscillation before: on a ground that shakes, or when a load comes on at once.
 //
 // p_peak is the largest p, and fades as p_rest does. In an impact, and as long as a body bounces higher than it rests, u is
 // next to nothing, and M and P are F itself. A contact that opens for less than 2 pi / omega goes on with p_rest, p_peak, M and P.
@@ -153,7 +152,7 @@ inline double reversible_speed(const Contact& c, const ContactMotion& m) {
 }
 
 // Time of a mean over 1 / omega: some ten oscillations, twenty times as long as an impact.
-constexpr double time_of_rest = 60, time_of_feeling = 2;
+constexpr double time_of_rest = 60, time_of_feeling = 4;
 // Part of it that a step takes. omega: 1/s.
 inline double part_of_rest(double step, double omega) {
   return std::min(1.0, step * omega / time_of_rest);

@@ -160,19 +160,21 @@ void note_dry_flows(ModelObject& model) {
 
 namespace {
 
-// Of bodies that slide by more than their vibrations, once each two.
+// Tells once of two bodies that slide with less friction than their law gives.
 void warn_of_sliding(Session& session, ModelObject& model, const Stage& stage) {
   if (stage.kind != "run" || model.simulation.sliding().of_bodies.empty())
     return;
   const double least = 1e-3 * model.simulation.energy().scale(); // J
   for (const auto& [bodies, sums] : model.simulation.sliding().of_bodies)
-    if (sums.looks >= 10 && sums.slides() && sums.law > least && sums.done < 0.985 * sums.law &&
-        model.told_sliding.insert(bodies).second)
+    if (const double law = sums.law.norm(); sums.looks >= 10 && sums.slides() && law > least &&
+                                            sums.done < 0.985 * law &&
+                                            model.told_sliding.insert(bodies).second)
       session.warn(of_stage(stage) + shown_pair(model.body_names[bodies[0]], model.body_names[bodies[1]]) +
-                   ": they slide, and friction has done " + three_digits(sums.done / sums.law) +
+                   ": they slide, and friction has done " + three_digits(sums.done / law) +
                    " of the work that its law asks for: while a sole vibrates, the slip of some of its "
                    "points reverses and others stick; start the load slowly or with model:relax, and give "
-                   "the contact a restitution of 0.5 or less, or the materials stiffness_damping");
+                   "the contact a lower restitution (0.5 serves up to 45 degrees of friction), or the "
+                   "materials stiffness_damping");
 }
 
 } // namespace
