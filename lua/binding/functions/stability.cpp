@@ -146,9 +146,9 @@ void bind_stability(Module& m) {
   bind_stability_records(m);
   Class& model = m.the_class("Model");
   model.add("copy",
-            "Another model in the same state, with the same conditions and without histories, probes and the "
-      "largest errors so far (`one_way_error`); what becomes of one does not touch the other.",
-      {}, copy, "cdem.Model");
+            "Another model in the same state, with the same conditions and without histories, probes and "
+            "the largest errors so far (`one_way_error`); what becomes of one does not touch the other.",
+            {}, copy, "cdem.Model");
   model.add("reduce_strength",
             "Divides strengths by a factor: cohesion, tan(phi) and tensile strength. Stiffness, fracture "
             "energies and the state stay; glued faces never break. A second call acts on top of the first.",

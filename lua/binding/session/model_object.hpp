@@ -10,6 +10,9 @@
 #include "libcdem/vtk/files.hpp"
 #include "libgeom/placement/pile.hpp"
 
+#include <array>
+#include <set>
+
 namespace cdem::script {
 
 using Columns = std::vector<std::pair<std::string, std::vector<double>>>; // of a table of numbers, by name
