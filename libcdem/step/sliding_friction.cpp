@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cdem {
 namespace {
@@ -20,6 +21,8 @@ bool deforms(const Model& model, int block) {
 
 void SlidingFriction::look(const Model& model, const State& state, const std::vector<char>& broken,
                            double time) {
+  if (std::exchange(blocks, model.blocks.size()) != model.blocks.size())
+    of_blocks.clear(); // they have other numbers
   std::map<int, BlockMotion> motions;
   const auto velocity = [&](int block, const geom::Vec3& place) -> geom::Vec3 {
     const auto [entry, fresh] = motions.try_emplace(block);
@@ -46,9 +49,7 @@ void SlidingFriction::look(const Model& model, const State& state, const std::ve
     const geom::Vec3 v = along(velocity(source, place) - velocity(target, place)),
                      w = along(velocity_past(state, arms));
     const double normal = time * std::max(0.0, normal_force(c, law)), limit = law.tan_friction * normal;
-    std::array<int, 2> bodies{model.blocks[source].body, model.blocks[target].body};
-    std::sort(bodies.begin(), bodies.end());
-    Sums& sums = now[bodies];
+    Sums& sums = now[std::array<int, 2>{std::min(source, target), std::max(source, target)}];
     sums.law += (source < target ? limit : -limit) * v;
     sums.done -= time * c.shear.dot(v);
     sums.path += limit * v.norm();
@@ -57,10 +58,10 @@ void SlidingFriction::look(const Model& model, const State& state, const std::ve
     sums.span +=
         limit * std::cbrt(std::min(model.blocks[source].mass.volume, model.blocks[target].mass.volume));
   }
-  for (const auto& [bodies, sums] : now) {
+  for (const auto& [pair, sums] : now) {
     if (!std::isfinite(sums.path))
       continue;
-    Sums& all = of_bodies[bodies];
+    Sums& all = of_blocks[pair];
     if (sums.path > 0.01 * all.path)
       ++all.looks;
     all.law += sums.law;

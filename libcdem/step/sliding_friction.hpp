@@ -15,8 +15,8 @@ struct Model;
 struct State;
 
 struct SlidingFriction {
-  // Of two bodies, smaller first, over the contacts between a block that deforms and another one. v: slip of the two blocks
-  // there if each moved as a rigid body, w: of the contact itself, both along its face.
+  // Of two blocks, smaller first, of which one deforms, over their contacts. v: slip of the two there if each moved as a rigid
+  // body, w: of the contact itself, both along its face.
   struct Sums {
     // N m, sum of tan(phi) N v dt, of the first past the second: what shakes to and fro does not count.
     geom::Vec3 law = geom::Vec3::Zero();
@@ -28,12 +28,16 @@ struct SlidingFriction {
     double time = 0;        // s
     std::int64_t looks = 0; // that found more than a hundredth of the path so far
 
-    // The soles go with the bodies, which on the whole have moved past each other by more than what gives.
+    // The soles go with the blocks, which on the whole have moved past each other by more than what gives. Where friction does
+    // less than half of what its law asks for, they stick and roll over each other.
     bool slides() const {
-      return contact > 0.7 * slip && contact < 1.3 * slip && law.norm() * time > 1e-4 * span;
+      return looks >= 10 && contact > 0.7 * slip && contact < 1.3 * slip && law.norm() * time > 1e-4 * span &&
+             done > 0.5 * law.norm();
     }
   };
-  std::map<std::array<int, 2>, Sums> of_bodies;
+  std::map<std::array<int, 2>, Sums> of_blocks;
+  std::size_t blocks = 0; // of the model that they belong to
+
   // time: s, since the last look, some hundred steps ago. broken: per block; pieces move by themselves and do not count.
   void look(const Model&, const State&, const std::vector<char>& broken, double time);
 };

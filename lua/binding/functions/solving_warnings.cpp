@@ -162,19 +162,23 @@ namespace {
 
 // Tells once of two bodies that slide with less friction than their law gives.
 void warn_of_sliding(Session& session, ModelObject& model, const Stage& stage) {
-  if (stage.kind != "run" || model.simulation.sliding().of_bodies.empty())
+  const auto& all = model.simulation.sliding().of_blocks;
+  const std::vector<Block>& blocks = model.simulation.model().blocks;
+  if (stage.kind != "run" || model.simulation.sliding().blocks != blocks.size())
     return;
   const double least = 1e-3 * model.simulation.energy().scale(); // J
-  for (const auto& [bodies, sums] : model.simulation.sliding().of_bodies)
-    if (const double law = sums.law.norm(); sums.looks >= 10 && sums.slides() && law > least &&
-                                            sums.done < 0.985 * law &&
-                                            model.told_sliding.insert(bodies).second)
+  for (const auto& [pair, sums] : all) {
+    const double law = sums.law.norm();
+    std::array<int, 2> bodies{blocks[pair[0]].body, blocks[pair[1]].body};
+    std::sort(bodies.begin(), bodies.end());
+    if (sums.slides() && law > least && sums.done < 0.985 * law && model.told_sliding.insert(bodies).second)
       session.warn(of_stage(stage) + shown_pair(model.body_names[bodies[0]], model.body_names[bodies[1]]) +
                    ": they slide, and friction has done " + three_digits(sums.done / law) +
                    " of the work that its law asks for: while a sole vibrates, the slip of some of its "
                    "points reverses and others stick; start the load slowly or with model:relax, and give "
                    "the contact a lower restitution (0.5 serves up to 45 degrees of friction), or the "
                    "materials stiffness_damping");
+  }
 }
 
 } // namespace
