@@ -45,7 +45,7 @@ struct FacetTraction {
 
 bool may_have_facets(const Model&); // by the bonding of its bodies alone
 
-// Of all plane facets that lie at no crack: there the forces are those of its law too. None of bodies with zones.
+// All plane facets that lie at no crack, where the forces are those of its law too. Bodies with zones have none.
 std::vector<FacetTraction> facet_tractions(const Model&, const State&);
 
 } // namespace cdem

@@ -15,7 +15,7 @@ struct Model;
 struct State;
 
 struct SlidingFriction {
-  // Of two blocks, smaller first, of which one deforms, over their contacts. v: slip of the two there if each moved as a rigid
+  // Sums over the contacts of two blocks, smaller first, of which one deforms. v: slip of the two there if each moved as a rigid
   // body, w: of the contact itself, both along its face.
   struct Sums {
     // N m, sum of tan(phi) N v dt, of the first past the second: what shakes to and fro does not count.

@@ -243,7 +243,7 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
   return broken;
 }
 
-// In a relaxation steps are no times.
+// The steps of a relaxation are no times.
 void Stage::look_at_sliding() {
   const std::vector<Block>& blocks = context_.model.blocks;
   if (!in_real_time || !context_.sliding || context_.model.surface.empty() ||

@@ -11,7 +11,7 @@ struct EdgeBeyond {
   double direction = 1; // 1 or -1: the line runs along the edge's own direction or against it
 };
 
-// Of a block that has broken: the sides of all its triangles by the edge of the mesh at which they stand, and the semi-edges found
+// The sides of all triangles of a block that has broken, by the edge of the mesh at which they stand, and the semi-edges found
 // there, which stay as long as the same triangles are outside.
 struct EdgesOfBroken {
   int block = 0;

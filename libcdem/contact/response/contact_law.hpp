@@ -79,7 +79,7 @@ struct ContactMotion {
   double held_at_most = 0;                // part of the damping force that may act, part_held
   double part_of_rest = 0;                // part of a mean over the time of rest that the step takes
   bool deformable = false;                // one of its two bodies is, and restitution knows them
-  double felt_over_usual = 1;             // sums of these forces of all contacts of its bodies
+  double felt_over_usual = 1;             // these two means, summed over the contacts between its bodies
   bool in_relaxation = false;             // its steps are no times, and it finds the contact at rest
 };
 
