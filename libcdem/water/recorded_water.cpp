@@ -242,11 +242,13 @@ std::optional<RecordedWater::AtTop> RecordedWater::reaches_top() const {
   const double top = record_.origin.z() + last * record_.spacing.z();
   for (std::size_t frame = 0; frame < layers_.size(); ++frame)
     for (std::size_t column = 0; column < columns(); ++column)
-      if (const Layer& layer = layers_[frame][column].back(); !layer.dry && layer.top >= top)
-        return AtTop{
-            record_.times[frame],
-            {record_.origin.x() + static_cast<double>(column % record_.size[0]) * record_.spacing.x(),
-             record_.origin.y() + static_cast<double>(column / record_.size[0]) * record_.spacing.y(), top}};
+      if (const Layer& layer = layers_[frame][column].back(); !layer.dry && layer.top >= top) {
+        const std::size_t i = column % record_.size[0];
+        const std::size_t j = column / record_.size[0];
+        return AtTop{record_.times[frame],
+                     {record_.origin.x() + static_cast<double>(i) * record_.spacing.x(),
+                      record_.origin.y() + static_cast<double>(j) * record_.spacing.y(), top}};
+      }
   return {};
 }
 

@@ -1,8 +1,6 @@
 // A model as the script holds it: libcdem's Simulation with the names the script gave.
 #pragma once
 
-#include <set>
-
 #include "lua/binding/objects/objects.hpp"
 #include "lua/binding/session/film.hpp"
 #include "lua/binding/session/session.hpp"
