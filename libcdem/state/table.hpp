@@ -57,7 +57,7 @@ enum class FieldCarried { copied, blended, divided };
 enum class FieldShared { by_all, motion, large, small, by_owner };
 
 // What code that looks at a stage between two steps finds.
-//   stands    the field as the step has left it
+//   stands    the field as the step has left it; of contacts, as the next step will find it
 //   advances  the field where the nodes are: bringing it there writes it, and it is put back (step/synchronised_view)
 //   shown     it says how results are shown and nothing about mechanics: no part of the hash
 enum class FieldLooked { stands, advances, shown };

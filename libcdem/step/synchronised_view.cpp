@@ -1,6 +1,5 @@
 #include "libcdem/step/synchronised_view.hpp"
 
-#include "libcdem/contact/data/tet_contacts.hpp"
 #include "libcdem/ranks/looks.hpp"
 #include "libcdem/step/support_forces.hpp"
 
@@ -20,8 +19,8 @@ void copy_advancing_fields(const State& from, State& to) {
 
 struct SynchronisedView::Kept {
   State state; // the advancing fields
-  ContactWork contact;
-  ContactUpdate contacts;
+  Searches search;
+  bool contact_due;
   std::vector<FaceSums> face_sums;
   NearStrength near;
   double strain_step;
@@ -31,15 +30,18 @@ struct SynchronisedView::Kept {
 SynchronisedView::SynchronisedView(Stage& stage, Of what) : stage_(stage) {
   State& state = stage.context_.state;
   Workspace& work = stage.work;
-  if (work.contact.due || work.strain_step > 0) {
-    kept_ = std::make_unique<Kept>(Kept{
-        {}, work.contact, stage.contacts_, work.face_sums, work.near, work.strain_step, work.hand_over_due});
-    if (work.contact.tet_contacts)
-      kept_->contact.tet_contacts = std::make_shared<TetContacts>(*work.contact.tet_contacts);
+  stage.synchronise_contacts(stage.context_.log);
+  if (work.strain_step > 0) {
+    kept_ = std::make_unique<Kept>(Kept{{},
+                                        work.contact.search,
+                                        work.contact.due,
+                                        work.face_sums,
+                                        work.near,
+                                        work.strain_step,
+                                        work.hand_over_due});
     copy_advancing_fields(state, kept_->state);
   }
   RunLog of_view;
-  stage.synchronise_contacts(of_view);
   stage.synchronise_stress(of_view);
   if (what == Of::whole)
     stage.see_whole();
@@ -58,15 +60,14 @@ SynchronisedView::~SynchronisedView() {
     return;
   State& state = stage_.context_.state;
   Workspace& work = stage_.work;
-  work.contact = std::move(kept_->contact);
-  stage_.contacts_ = std::move(kept_->contacts);
+  work.contact.search = std::move(kept_->search);
+  work.contact.due = kept_->contact_due;
   work.face_sums = std::move(kept_->face_sums);
   work.near = std::move(kept_->near);
   work.strain_step = kept_->strain_step;
   work.hand_over_due = kept_->hand_over_due;
   copy_advancing_fields(kept_->state, state);
   work.shared->parted(state); // of others, stresses are those of when they were last gathered
-  work.shared->part_contacts(state);
 }
 
 void look(Stage& stage, const std::vector<TimedLook>& looks, double from, double to) {

@@ -1,7 +1,7 @@
 // A stage between two steps, for code that only reads it. While this object lives, contacts and the stress of meshes
-// belong to the present positions of the nodes. Then everything that was written to bring them there is put back, bit for
-// bit: the fields that the table of State marks as advancing, and the stage's own notes. So a step never knows that
-// code has looked.
+// belong to the present positions of the nodes. Contacts stay there: the next step would begin with the same search and the same
+// forces. What was written to bring the stress there is put back, bit for bit: the fields that the table of State marks as
+// advancing, and the stage's own notes. So a step never knows that code has looked.
 #pragma once
 
 #include "libcdem/step/stage.hpp"
