@@ -160,7 +160,9 @@ void bind_stability(Module& m) {
       "to zero, and is relaxed; the verdict of model:relax says whether it stands. The log tells which "
       "blocks fail, where, and how large they are. Trials show in the progress, in the log and in "
       "report.json, which also gets the figures factor_of_safety, factor_of_safety_lower and "
-      "factor_of_safety_upper.",
+      "factor_of_safety_upper. Closed forms of limit equilibrium let a joint that slips keep its cohesion: "
+      "to "
+      "compare with them, give it a residual_cohesion as large as its cohesion.",
       {object("model", "Model").doc("each trial starts from its state as it is; it stays as it is"),
        function("builder", "(): cdem.Model").doc("instead: makes the model of a trial, called anew for each"),
        reduce(), number("lower").above(0).standard(0.5).doc("a factor at which the model stands"),
