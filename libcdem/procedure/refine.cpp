@@ -101,12 +101,6 @@ std::vector<Successor> slice(const Model& model, int block, const std::vector<ge
   return parts;
 }
 
-bool is_candidate(const Model& model, int block, const RefineOptions& o) {
-  if (o.near && !is_near(model.blocks[block], o.near->centre, o.near->radius))
-    return false;
-  return !o.region || selects_block(model, *o.region, block);
-}
-
 // Index of the joint that cut faces of each body get: bonded, with the strength the criterion used.
 std::vector<int> cut_joints(Model& frame, const RefineOptions& o) {
   std::vector<int> joints;
@@ -161,6 +155,13 @@ MeanField field_of(const Model& model, const State& state, int block, const geom
 
 } // namespace
 
+bool may_be_cut(const Model& model, int index, const RefineOptions& o) {
+  const Block& block = model.blocks[index];
+  return block.rigid < 0 && block.generation < o.max_depth &&
+         (!o.near || is_near(block, o.near->centre, o.near->radius)) &&
+         (!o.region || selects_block(model, *o.region, index));
+}
+
 Refined refine(const Model& model, const State& state, const RefineOptions& options) {
   check(options);
   Model frame = model;
@@ -176,7 +177,7 @@ Refined refine(const Model& model, const State& state, const RefineOptions& opti
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const Block& block = model.blocks[b];
     std::optional<FailurePlane> plane;
-    if (block.rigid < 0 && block.generation < options.max_depth && is_candidate(model, b, options)) {
+    if (may_be_cut(model, b, options)) {
       const BlockStrength strength = strength_of(model.bodies[block.body], options);
       require_strength(model.bodies[block.body], strength);
       const MeanField field = around ? MeanField{around->stress, around->gradient - turn}

@@ -209,6 +209,17 @@ TEST_CASE("a body whose cuts would fall apart is not refined", "[lua]") {
              Contains("body \"one\" has no joint"));
 }
 
+TEST_CASE("a body without a joint is no hindrance where none of its blocks may be cut", "[lua]") {
+  const std::string pair =
+      column() + "local function two(element) return cdem.model{ bodies = { "
+                 "{ shape = cdem.box{ size = {1,1,1} }, material = rock, joint = joint, name = 'a' }, "
+                 "{ shape = cdem.box{ size = {1,1,1}, origin = {5,0,0} }, material = rock, name = 'b', "
+                 "element = element } } } end\n";
+  CHECK_THAT(error_of(pair + "two():refine{}"), Contains("body \"b\" has no joint"));
+  Script script(pair + "two('rigid'):refine{}\ntwo():refine{ region = 'a' }");
+  script.run();
+}
+
 TEST_CASE("a check names stages of one kind in a row in one line", "[lua]") {
   Script script(column() +
                 "for _ = 1, 3 do model:run{ steps = 2 } end\nmodel:relax{}\nmodel:run{ steps = 2 }\n");

@@ -7,6 +7,7 @@
 #include "lua/binding/session/selections.hpp"
 
 #include "libcdem/memory_needed.hpp"
+#include "libcdem/procedure/refine.hpp"
 #include "libgeom/core/error.hpp"
 
 #include <algorithm>
@@ -105,14 +106,19 @@ Field may_break_field() {
 
 const Record<RefineOptions> break_record{{{may_break_field().standard(), &RefineOptions::may_break}}};
 
-RefineOptions refine_options(const ModelObject& model, const Arguments& a) {
-  if (!model.unjointed.empty())
-    throw InputError(
-        "body \"" + model.unjointed.front() +
-        "\" has no joint: give it one in cdem.model, which holds the faces of the cuts together");
+RefineOptions refine_options(const ModelObject& of, const Arguments& a) {
   RefineOptions options = refine_record.read(a);
   if (a.has("region"))
-    options.region = one_selection(model, a.value("region"), "region");
+    options.region = one_selection(of, a.value("region"), "region");
+  const Model& model = of.simulation.model();
+  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+    const std::string& body = model.bodies[model.blocks[b].body].name;
+    if (std::find(of.unjointed.begin(), of.unjointed.end(), body) != of.unjointed.end() &&
+        may_be_cut(model, static_cast<int>(b), options))
+      throw InputError("body \"" + body +
+                       "\" has no joint: give it one in cdem.model, which holds the faces of the cuts "
+                       "together, or leave the body out with region");
+  }
   return options;
 }
 
