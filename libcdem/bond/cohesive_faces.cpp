@@ -172,6 +172,19 @@ double stored(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint&
 
 } // namespace
 
+std::array<Vec3, 3> carried_tractions(const FaceBatch& batch, int lane, const FaceFrame& f,
+                                      const geom::Mat3& stress, const Joint& joint, FaceStage stage,
+                                      const CohesiveFace& face) {
+  const double k = penalty(batch, lane);
+  const Vec3 on_face = stress * f.normal;
+  std::array<Vec3, 3> tractions;
+  for (int point = 0; point < 3; ++point)
+    tractions[point] =
+        holds(stage) ? Vec3(on_face + k * (f.gap[point] + f.in_space(vec(face.offset[point]))))
+                     : f.in_space(carried(cohesive_law(joint, k), face, point, f.in_axes(f.gap[point])));
+  return tractions;
+}
+
 double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const Joint& joint, const Vec3& m,
                    BondMode mode, FaceStateBatch& state, CohesiveFace& face) {
   const FaceFrame& f = at.frame;
@@ -181,13 +194,24 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const
   state.stage[lane] = FaceStage::cracking;
   face.plane = array(f.in_axes(m));
   const SofteningLaw law = cohesive_law(joint, k);
-  const PartsOfStretch<double> stands =
-      parts_of_stretch<double>(law, triple(f.in_axes(m)), triple(Vec3(on_plane / law.kn)));
+  double work = 0;
   for (int point = 0; point < 3; ++point) {
-    const Vec3 gap = f.in_axes(f.gap[point]), pulls = on_face + k * (gap + vec(face.offset[point]));
+    const Vec3 gap = f.in_axes(f.gap[point]), held = on_face + k * (gap + vec(face.offset[point])),
+               pulls = at.carried ? f.in_axes((*at.carried)[point]) : held;
+    const PartsOfStretch<double> stands = parts_of_stretch<double>(
+        law, triple(f.in_axes(m)), triple(Vec3((at.carried ? pulls : on_plane) / law.kn)));
+    work += 0.5 * batch.area[lane] * (at.relieved * f.normal + f.in_space(pulls - held)).dot(at.moved[point]);
     // A crack that ended may have damaged it: its law goes on where it was.
-    const double part = 1 - face.damage[point], drawn = fourth_power(part);
-    face.offset[point] = array(vec(stands.pressed) + vec(stands.bonded) / (part * drawn));
+    const double part = 1 - face.damage[point];
+    double drawn = fourth_power(part);
+    Vec3 bonded = vec(stands.bonded) / (part * drawn);
+    // What pressure stores in the contact of a brittle face may have been the face's own; r0 bears the rest for a step.
+    if (at.carried && !law.softens &&
+        law.kn * vec(stands.pressed).squaredNorm() <= k * (gap + vec(face.offset[point])).squaredNorm()) {
+      drawn = 0;
+      bonded.setZero();
+    }
+    face.offset[point] = array(vec(stands.pressed) + bonded);
     face.start[point] = array(gap);
     face.drawn[point] = drawn;
     face.slip[point] = {};
@@ -196,9 +220,6 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const
     if (!law.softens)
       state.mode[point][lane] = static_cast<std::uint8_t>(mode);
   }
-  double work = 0;
-  for (const Vec3& moved : at.moved)
-    work += 0.5 * batch.area[lane] * (at.relieved * f.normal).dot(moved);
   return before - stored(batch, lane, f, joint, state, face) - work;
 }
 

@@ -53,7 +53,14 @@ struct FaceMoment {
                                   geom::Vec3::Zero()}; // m, in space, change of `gap` since then
   geom::Mat3 stress = geom::Mat3::Zero();              // Pa, in space, s above
   geom::Mat3 relieved = geom::Mat3::Zero(); // Pa, change of the stress where a crack begins at the strength
+  // Pa, in space, what each point carries where the face is judged by that: between joined blocks without zones.
+  std::optional<std::array<geom::Vec3, 3>> carried = {};
 };
+
+// Pa, in space, on side a: what the three points carry of a face that holds (stress . normal + k (j + o)) or cracks.
+std::array<geom::Vec3, 3> carried_tractions(const FaceBatch&, int lane, const FaceFrame&,
+                                            const geom::Mat3& stress, const Joint&, FaceStage,
+                                            const CohesiveFace&);
 
 // Begins a crack on the plane with the unit normal m; a brittle face is broken, in this mode, and lets go in the next step.
 // Returns the energy that the face no longer stores, J (negative where it stores more), with the half step's work that its

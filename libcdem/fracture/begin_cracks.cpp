@@ -63,6 +63,48 @@ CDEM_INLINE void beyond_kernel(const SlotsOfFaces* eights, std::size_t count, co
   }
 }
 
+// Some stress s with s n = t.
+Mat3 stress_with(const Vec3& t, const Vec3& n) {
+  return t * n.transpose() + n * t.transpose() - t.dot(n) * n * n.transpose();
+}
+
+// The linear traction with the resultant and the moment of those at given points of one plane. As in facet_traction.hpp.
+class LinearTraction {
+public:
+  // x: m, from a place near all of them.
+  void add(double area, const Vec3& x, const Vec3& traction, const Vec3& normal) {
+    area_ += area;
+    first_ += area * x;
+    second_ += area * x * x.transpose();
+    force_ += area * traction;
+    arms_ += area * traction * x.transpose();
+    along_ += area * normal;
+  }
+  void fit() {
+    centroid_ = first_ / area_;
+    mean_ = force_ / area_;
+    normal_ = along_.normalized();
+    const Mat3 second = second_ - area_ * centroid_ * centroid_.transpose(),
+               arms = arms_ - force_ * centroid_.transpose();
+    const double polar = second.trace();
+    const Vec3 moment(arms(2, 1) - arms(1, 2), arms(0, 2) - arms(2, 0), arms(1, 0) - arms(0, 1));
+    slope_ = (second + polar * normal_ * normal_.transpose()).inverse() * (arms.transpose() * normal_);
+    slope_ -= slope_.dot(normal_) * normal_;
+    turn_ = normal_.dot(moment) / polar * normal_;
+  }
+  Vec3 at(const Vec3& x) const {
+    const Vec3 r = x - centroid_;
+    return mean_ + slope_.dot(r) * normal_ + turn_.cross(r);
+  }
+
+private:
+  double area_ = 0;
+  Vec3 first_ = Vec3::Zero(), force_ = Vec3::Zero(), along_ = Vec3::Zero();
+  Mat3 second_ = Mat3::Zero(), arms_ = Mat3::Zero();
+  Vec3 centroid_ = Vec3::Zero(), normal_ = Vec3::Zero(), mean_ = Vec3::Zero(), slope_ = Vec3::Zero(),
+       turn_ = Vec3::Zero();
+};
+
 class ChunkCracks {
 public:
   ChunkCracks(const Model& model, State& state, const StrengthWatch& watch, const NearStrength& near,
@@ -72,6 +114,7 @@ public:
         joints_(model, state, chunk_) {}
 
   BegunCracks operator()() {
+    find_facet_tractions();
     for (const int face : faces_to_look_at()) {
       const std::int64_t batch = chunk_.face_batches.begin + face / lanes;
       const int lane = face % lanes;
@@ -109,6 +152,8 @@ private:
       });
       each_lane(hold != 0 ? hold & near_faces(batch) : 0, [&](int lane) {
         const int face = begin + lane;
+        if (is_in_facet(face))
+          return;
         const bool resumes = (resumed >> lane & 1u) != 0;
         if (resumes && rock_of(face).curve.on()) // its bounds are not in proportion to what is left
           faces.push_back(face);
@@ -118,6 +163,9 @@ private:
     }
     std::copy_if(cracking.begin(), cracking.end(), std::back_inserter(faces),
                  [&](int face) { return may_end(state_.cohesive[first + face]); });
+    for (int face = 0; face < static_cast<int>(in_facet_.size()); ++face)
+      if (is_in_facet(face) && holds(state_.faces[(first + face) / lanes].stage[face % lanes]))
+        faces.push_back(face);
     std::sort(faces.begin(), faces.end());
     if (near.empty())
       return faces;
@@ -203,7 +251,8 @@ private:
       raise(rock, unloaded_part * (1 - damage_of(face)));
       const FacePlane kind = plane_of_face(number);
       const Vec3 normal = kind == FacePlane::own ? frame(batch, lane, step_.moved_for).normal : Vec3::Zero();
-      if (strength_utilisation(stress, rock, normal, kind) < 1)
+      if (is_in_facet(place(batch, lane)) ? !worst_plane(in_facet_[place(batch, lane)], rock)
+                                          : strength_utilisation(stress, rock, normal, kind) < 1)
         breaking_ +=
             end_crack(at, lane, moment(batch, lane, stress), joint, state_.faces[batch], face).value_or(0);
     } else if (step_.moved_for > 0) {
@@ -220,12 +269,10 @@ private:
   void look_at(std::int64_t batch, int lane) {
     const std::int64_t number = batch * lanes + lane;
     const int face = place(batch, lane);
+    if (is_in_facet(face))
+      return look_at_facet(batch, lane);
     const Mat3 stress = stress_at(number);
-    RockStrength rock = rock_of(face);
-    // A crack that did not continue took the rest: at most the part that may_end allows.
-    const double left =
-        state_.faces[batch].stage[lane] == FaceStage::resumed ? 1 - damage_of(state_.cohesive[number]) : 1;
-    raise(rock, left);
+    RockStrength rock = rock_left(number, face);
     const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
                                   stress(0, 1), stress(1, 2), stress(0, 2)};
     if (joints_.own() && !rock.curve.on() && !(UtilisationBound(rock, 1).beyond(components) > 0))
@@ -242,22 +289,143 @@ private:
         found.reset();
       return found;
     };
-    auto plane = plane_at();
-    if (plane && !state_.rate_factor.empty()) {
-      const double factor = step_.in_real_time ? dynamic_increase_factor(joints_.before_rate(face).rate,
-                                                                         strain_rate(model_, state_, tets))
-                                               : 1;
-      raise(rock, factor);
-      plane = plane_at();
-      if (plane)
-        state_.rate_factor[number] = factor;
-    }
+    const auto plane = at_rate(number, face, rock, plane_at);
     if (!plane)
       return;
     const bool was_beyond = strength_utilisation(stress - rise(tets), rock, then.normal, kind) >= 1;
     begin(batch, lane, moment(batch, lane, stress, then), *plane, was_beyond);
   }
 
+  // The plane that fails, with the strength at the rate of strain; plane_at() follows `rock`.
+  template <class PlaneAt>
+  std::optional<CriticalPlane> at_rate(std::int64_t number, int face, RockStrength& rock,
+                                       const PlaneAt& plane_at) {
+    std::optional<CriticalPlane> plane = plane_at();
+    if (plane && !state_.rate_factor.empty()) {
+      const double factor =
+          step_.in_real_time
+              ? dynamic_increase_factor(joints_.before_rate(face).rate,
+                                        strain_rate(model_, state_, model_.mesh.face_tets[number]))
+              : 1;
+      raise(rock, factor);
+      plane = plane_at();
+      if (plane)
+        state_.rate_factor[number] = factor;
+    }
+    return plane;
+  }
+
+  // A face between joined blocks without zones that is not damaged.
+  struct InFacet {
+    bool is = false;
+    Vec3 normal = Vec3::Zero();     // unit
+    std::array<Vec3, 3> at_corners; // Pa, in space, on side a
+  };
+  bool is_in_facet(int face) const { return !in_facet_.empty() && in_facet_[face].is; }
+  // The traction at the corners of such faces: of the linear one that has the resultant and the moment of what all of them carry
+  // in a facet. Their tets' stress alone does not see bending.
+  void find_facet_tractions() {
+    const std::vector<FacetFaces>& facets = watch_.facets(index_);
+    if (facets.empty())
+      return;
+    in_facet_.resize(static_cast<std::size_t>(chunk_.faces));
+    for (const FacetFaces& facet : facets)
+      fit(facet);
+  }
+  void fit(const FacetFaces& facet) {
+    LinearTraction linear;
+    std::optional<Vec3> near; // a place of the facet
+    for (std::size_t i = 0; i < facet.faces.size(); ++i) {
+      const int face = facet.faces[i], lane = face % lanes;
+      const std::int64_t number = chunk_.face_batches.begin * lanes + face, batch = number / lanes;
+      const FaceStage stage = state_.faces[batch].stage[lane];
+      if (!holds(stage) && !(stage == FaceStage::cracking && may_end(state_.cohesive[number]) &&
+                             joints_.of(face, room_).softening != Softening::none))
+        continue;
+      const std::array<Vec3, 3> corners = corners_of(batch, lane);
+      if (!near)
+        near = corners[0];
+      const FaceFrame then = stage == FaceStage::holding ? frame_of_whole(batch, lane, corners)
+                                                         : frame(batch, lane, step_.moved_for);
+      const auto tractions = carried_tractions(model_.mesh.faces[batch], lane, then, stress_at(number),
+                                               joints_.of(face, room_), stage, state_.cohesive[number]);
+      const double side = facet.first_is_a[i] != 0 ? 1 : -1;
+      const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 6 - *near;
+      for (int point = 0; point < 3; ++point)
+        linear.add(model_.mesh.faces[batch].area[lane], middle + 0.5 * corners[point],
+                   side * tractions[point], side * then.normal);
+      in_facet_[face] = {true, then.normal, corners};
+    }
+    if (!near)
+      return;
+    linear.fit();
+    for (std::size_t i = 0; i < facet.faces.size(); ++i)
+      if (InFacet& face = in_facet_[facet.faces[i]]; face.is)
+        for (Vec3& at : face.at_corners) // a place so far
+          at = (facet.first_is_a[i] != 0 ? 1 : -1) * linear.at(at - *near);
+  }
+  std::array<Vec3, 3> corners_of(std::int64_t batch, int lane) const {
+    const FaceNodes nodes = face_nodes(model_.mesh, chunk_, batch, lane);
+    std::array<Vec3, 3> corners;
+    for (int corner = 0; corner < 3; ++corner)
+      corners[corner] = place_of(model_, state_, nodes.a[corner]);
+    return corners;
+  }
+  // The gaps at the moment of the stress and the normal of side a: sides that have never cracked lie on each other.
+  FaceFrame frame_of_whole(std::int64_t batch, int lane, const std::array<Vec3, 3>& corners) const {
+    const FaceNodes nodes = face_nodes(model_.mesh, chunk_, batch, lane);
+    const auto moved = [&](int node) {
+      return Vec3(vec(state_.displacement[node]) - step_.moved_for * velocity_of(state_, node));
+    };
+    Vec3 apart[3];
+    for (int corner = 0; corner < 3; ++corner)
+      apart[corner] = moved(nodes.b[corner]) - moved(nodes.a[corner]);
+    FaceFrame f;
+    f.normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    f.along = f.across = Vec3::Zero();
+    for (int point = 0; point < 3; ++point)
+      f.gap[point] = (apart[0] + apart[1] + apart[2]) / 6 + 0.5 * apart[point];
+    return f;
+  }
+  // The plane of the corner that uses most of the strength, if that is all of it.
+  static std::optional<CriticalPlane> worst_plane(const InFacet& face, const RockStrength& rock) {
+    double most = 0;
+    Mat3 worst = Mat3::Zero();
+    for (const Vec3& t : face.at_corners) {
+      const Mat3 stress = stress_with(t, face.normal);
+      if (const double used = strength_utilisation(stress, rock, face.normal, FacePlane::own); used > most) {
+        most = used;
+        worst = stress;
+      }
+    }
+    return most >= 1 ? critical_plane(worst, rock, face.normal, FacePlane::own) : std::nullopt;
+  }
+  // A face that holds in a facet. Its law begins at what each point carries, at most the strength.
+  void look_at_facet(std::int64_t batch, int lane) {
+    const std::int64_t number = batch * lanes + lane;
+    const int face = place(batch, lane);
+    RockStrength rock = rock_left(number, face);
+    auto plane = at_rate(number, face, rock, [&] { return worst_plane(in_facet_[face], rock); });
+    if (!plane)
+      return;
+    FaceMoment at = moment(batch, lane, stress_at(number));
+    const Vec3 n = plane->normal = at.frame.normal;
+    at.carried =
+        carried_tractions(model_.mesh.faces[batch], lane, at.frame, at.stress, joints_.of(face, room_),
+                          state_.faces[batch].stage[lane], state_.cohesive[number]);
+    for (Vec3& t : *at.carried)
+      if (const auto beyond = critical_plane(stress_with(t, n), rock, n, FacePlane::own))
+        t = beyond->traction;
+    begin(batch, lane, at, *plane, true);
+  }
+
+  // Of a face that holds: a crack that did not continue took the rest, at most the part that may_end allows.
+  RockStrength rock_left(std::int64_t number, int face) const {
+    RockStrength rock = rock_of(face);
+    if (state_.faces[number / lanes].stage[number % lanes] == FaceStage::resumed)
+      raise(rock, 1 - damage_of(state_.cohesive[number]));
+    return rock;
+  }
   RockStrength rock_of(int face) const {
     return rocks_.of(joints_.law(face), joints_.tensile_strength(face), joints_.cohesion(face));
   }
@@ -317,6 +485,7 @@ private:
   OwnRocks rocks_;
   FaceJoints joints_;
   Joint room_;
+  std::vector<InFacet> in_facet_; // per face; empty: there are no facets
   BegunCracks begun_;
   double breaking_ = 0; // J, of the chunk
   CrackEnergy crack_;   // J, of the chunk

@@ -9,6 +9,9 @@
 // as taken by breaking. So the body bears its strength at any rate and with any step. Stress that was beyond the strength
 // before the step, of faces that had no plane to crack on, is left to the tets.
 //
+// A face between joined blocks without zones (star_blocks.hpp) is judged by the traction that it carries: that of its tets'
+// stress and of its springs, as a linear one over the facet that has the same force and moment.
+//
 // A brittle face is broken when it begins to crack, carries its strength for one step more, and then lets go.
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/own_rocks.hpp"
+#include "libcdem/fracture/star_blocks.hpp"
 #include "libcdem/model/build/face_strength.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
 #include "libcdem/model/known_of_model.hpp"
@@ -33,19 +34,11 @@ struct Facet {
   int body = 0, a = 0, b = 0; // its blocks, into StarBlocks::extent
   std::vector<FacetFace> faces;
 };
-// Joined blocks whose tets all meet in one node.
-struct StarBlocks {
-  std::vector<int> of_tet;     // per tet of the mesh: its block; -1: none of these
-  std::vector<double> extent;  // m, of each, the least along an axis
-  std::vector<Facet> facets;   // between two of them
+struct Facets {
+  StarBlocks stars;
+  std::vector<Facet> all;      // between two of them
   std::vector<int> neighbours; // mesh_neighbours
 };
-
-bool may_have_stars(const Model& model, const Block& block) {
-  const Bonding& bonding = model.bodies[block.body].bonding;
-  return !block.convex() && block.rigid < 0 && bonding.is_cohesive() && bonding.between_regions &&
-         !bonding.everywhere;
-}
 
 std::array<int, 4> originals(const Model& model, int tet) {
   std::array<int, 4> nodes{};
@@ -54,41 +47,8 @@ std::array<int, 4> originals(const Model& model, int tet) {
   return nodes;
 }
 
-// Gives the regions of a block numbers, if each of them is a star.
-void add_stars(const Model& model, const Block& block, StarBlocks& stars) {
-  struct Region {
-    std::vector<int> common; // nodes that all its tets have
-    geom::Box box;
-  };
-  const MeshData& mesh = model.mesh;
-  std::map<int, Region> regions;
-  for (int t = block.tet_begin - mesh.first_tet; t < block.tet_end - mesh.first_tet; ++t) {
-    const std::array<int, 4> nodes = originals(model, t);
-    const auto [at, fresh] = regions.try_emplace(mesh.region[t]);
-    Region& region = at->second;
-    if (fresh)
-      region.common.assign(nodes.begin(), nodes.end());
-    else
-      region.common.erase(std::remove_if(region.common.begin(), region.common.end(),
-                                         [&](int node) {
-                                           return std::find(nodes.begin(), nodes.end(), node) == nodes.end();
-                                         }),
-                          region.common.end());
-    if (region.common.empty())
-      return;
-    for (const int node : model.tets[mesh.first_tet + t])
-      region.box.extend(model.node_position[node]);
-  }
-  std::map<int, int> number;
-  for (const auto& [region, of] : regions) {
-    number[region] = static_cast<int>(stars.extent.size());
-    stars.extent.push_back((of.box.max - of.box.min).minCoeff());
-  }
-  for (int t = block.tet_begin - mesh.first_tet; t < block.tet_end - mesh.first_tet; ++t)
-    stars.of_tet[t] = number[mesh.region[t]];
-}
-
-void add_facets(const Model& model, const Block& block, StarBlocks& stars) {
+void add_facets(const Model& model, const Block& block, Facets& facets_of) {
+  const StarBlocks& stars = facets_of.stars;
   const MeshData& mesh = model.mesh;
   const Body& body = model.bodies[block.body];
   const int first = block.tet_begin - mesh.first_tet;
@@ -102,8 +62,8 @@ void add_facets(const Model& model, const Block& block, StarBlocks& stars) {
   std::map<std::pair<int, int>, Facet> facets;
   for (int t = first; t < block.tet_end - mesh.first_tet; ++t)
     for (int f = 0; f < 4; ++f) {
-      const int beyond = stars.neighbours[4 * t + f] / 4;
-      if (stars.neighbours[4 * t + f] < 0 || stars.of_tet[t] >= stars.of_tet[beyond])
+      const int beyond = facets_of.neighbours[4 * t + f] / 4;
+      if (facets_of.neighbours[4 * t + f] < 0 || stars.of_tet[t] >= stars.of_tet[beyond])
         continue;
       RockStrength rock = rock_strength(body.joint_of(-1));
       if (strengths) {
@@ -117,26 +77,19 @@ void add_facets(const Model& model, const Block& block, StarBlocks& stars) {
       facet.faces.push_back({t, f, beyond, rock});
     }
   for (auto& [between, facet] : facets)
-    stars.facets.push_back(std::move(facet));
+    facets_of.all.push_back(std::move(facet));
 }
 
-StarBlocks star_blocks(const Model& model) {
-  StarBlocks stars;
-  stars.of_tet.assign(model.tets.size() - model.mesh.first_tet, -1);
-  std::vector<const Block*> of;
+Facets facets_of(const Model& model) {
+  Facets facets{star_blocks(model), {}, {}};
+  if (facets.stars.of_tet.empty())
+    return facets;
+  facets.neighbours = mesh_neighbours(model);
   for (const Block& block : model.blocks)
-    if (may_have_stars(model, block)) {
-      const std::size_t before = stars.extent.size();
-      add_stars(model, block, stars);
-      if (stars.extent.size() > before + 1)
-        of.push_back(&block);
-    }
-  if (of.empty())
-    return {};
-  stars.neighbours = mesh_neighbours(model);
-  for (const Block* block : of)
-    add_facets(model, *block, stars);
-  return stars;
+    if (block.tet_end > block.tet_begin && block.tet_begin >= model.mesh.first_tet &&
+        facets.stars.of_tet[block.tet_begin - model.mesh.first_tet] >= 0)
+      add_facets(model, block, facets);
+  return facets;
 }
 
 // Where facets meet.
@@ -229,12 +182,13 @@ std::set<int> nodes_at_cracks(const Model& model, const State& state) {
 
 class Tractions {
 public:
-  Tractions(const Model& model, const State& state, const StarBlocks& stars)
-      : model_(model), state_(state), stars_(stars), cracked_(nodes_at_cracks(model, state)),
-        volume_(stars.extent.size(), 0), stress_volume_(stars.extent.size(), Mat3(Mat3::Zero())) {}
+  Tractions(const Model& model, const State& state, const Facets& facets)
+      : model_(model), state_(state), facets_(facets), stars_(facets.stars),
+        cracked_(nodes_at_cracks(model, state)), volume_(stars_.extent.size(), 0),
+        stress_volume_(stars_.extent.size(), Mat3(Mat3::Zero())) {}
 
   std::vector<FacetTraction> operator()() {
-    for (std::size_t f = 0; f < stars_.facets.size(); ++f)
+    for (std::size_t f = 0; f < facets_.all.size(); ++f)
       add_parts(static_cast<int>(f));
     for (int tet = 0; tet < static_cast<int>(stars_.of_tet.size()); ++tet)
       if (stars_.of_tet[tet] >= 0)
@@ -242,8 +196,8 @@ public:
     for (auto& [node, at] : nodes_)
       at.balance();
     std::vector<FacetTraction> all;
-    for (std::size_t f = 0; f < stars_.facets.size(); ++f)
-      if (is_whole(stars_.facets[f]))
+    for (std::size_t f = 0; f < facets_.all.size(); ++f)
+      if (is_whole(facets_.all[f]))
         if (const auto traction = of(static_cast<int>(f)))
           all.push_back(*traction);
     return all;
@@ -268,7 +222,7 @@ private:
   }
 
   void add_parts(int number) {
-    const Facet& facet = stars_.facets[static_cast<std::size_t>(number)];
+    const Facet& facet = facets_.all[static_cast<std::size_t>(number)];
     for (const FacetFace& face : facet.faces) {
       const Vec3 s = area(face.tet, face.face);
       const Vec3 force = 0.5 * (stress(face.tet) + stress(face.beyond)) * s / 3;
@@ -288,7 +242,7 @@ private:
       const Vec3 force = s * area(tet, f) / 3;
       if (const auto at = nodes_.find(nodes[f]); at != nodes_.end())
         at->second.given[at->second.place(block)] -= force;
-      if (stars_.neighbours[4 * tet + f] < 0)
+      if (facets_.neighbours[4 * tet + f] < 0)
         for (const int corner : geom::tet_faces[f])
           if (const auto at = nodes_.find(nodes[corner]); at != nodes_.end())
             at->second.outside[at->second.place(block)] += force;
@@ -296,7 +250,7 @@ private:
   }
 
   std::optional<FacetTraction> of(int number) const {
-    const Facet& facet = stars_.facets[static_cast<std::size_t>(number)];
+    const Facet& facet = facets_.all[static_cast<std::size_t>(number)];
     FacetTraction result;
     result.body = facet.body;
     result.least_extent = std::min(stars_.extent[facet.a], stars_.extent[facet.b]);
@@ -361,6 +315,7 @@ private:
 
   const Model& model_;
   const State& state_;
+  const Facets& facets_;
   const StarBlocks& stars_;
   std::set<int> cracked_;
   std::vector<double> volume_;      // m3, of each block
@@ -378,9 +333,9 @@ bool may_have_facets(const Model& model) {
 std::vector<FacetTraction> facet_tractions(const Model& model, const State& state) {
   if (!may_have_facets(model))
     return {};
-  static KnownOfModel<StarBlocks> known;
-  const std::shared_ptr<const StarBlocks> stars = known.of(model, [&] { return star_blocks(model); });
-  return stars->facets.empty() ? std::vector<FacetTraction>{} : Tractions(model, state, *stars)();
+  static KnownOfModel<Facets> known;
+  const std::shared_ptr<const Facets> facets = known.of(model, [&] { return facets_of(model); });
+  return facets->all.empty() ? std::vector<FacetTraction>{} : Tractions(model, state, *facets)();
 }
 
 } // namespace cdem

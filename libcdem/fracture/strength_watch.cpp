@@ -3,6 +3,7 @@
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/own_rocks.hpp"
+#include "libcdem/fracture/star_blocks.hpp"
 #include "libcdem/model/build/face_strength.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
 #include "libcdem/model/known_of_model.hpp"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace cdem {
 namespace {
@@ -112,6 +114,8 @@ StrengthWatch::StrengthWatch(const Model& model) {
   if (own)
     own_.resize(neighbours_.size());
   bounds_.resize(mesh.chunks.size());
+  StarBlocks star_blocks = cdem::star_blocks(model);
+  star_ = std::move(star_blocks.of_tet);
   MeshSeed seed; // of the block of the chunk
   std::optional<FaceStrengths> strengths;
   int seed_of = -1;
@@ -141,7 +145,13 @@ StrengthWatch::StrengthWatch(const Model& model) {
       own_[i] = rocks.of(face.joint, face.tensile_strength, face.cohesion);
       rocks.take(face.joint, own_[i]);
     }
-    bounds_[c] = {rocks.bounds(1), rocks.bounds(std::min(looked_at_from, due_at)), rocks.bounds(freed_at)};
+    double due = std::min(looked_at_from, due_at), half = freed_at;
+    for (auto t = chunk.tets.begin; t < chunk.tets.end; ++t)
+      if (const int star = star_of(model, t); star >= 0) {
+        due = std::min(due, stars_due_at * star_blocks.shape[star]);
+        half = std::min(half, stars_freed_at * star_blocks.shape[star]);
+      }
+    bounds_[c] = {rocks.bounds(1), rocks.bounds(due), rocks.bounds(half)};
   }
   freed(model);
 }
@@ -263,6 +273,12 @@ public:
         return true;
     return false;
   }
+  bool any_open(std::int64_t tet) const {
+    bool any = false;
+    for (int face = 0; face < 4; ++face)
+      any = any || is_open(tet, face);
+    return any;
+  }
   std::int64_t beyond(std::int64_t tet, int face) const {
     return model_.mesh.first_tet + watch_.neighbours_[4 * (tet - model_.mesh.first_tet) + face] / 4;
   }
@@ -315,16 +331,38 @@ void StrengthWatch::freed(const Model& model) {
     slots_[batch].a[lane] = mesh.tet_slot[tets.tet_a - mesh.first_tet];
     slots_[batch].b[lane] = mesh.tet_slot[tets.tet_b - mesh.first_tet];
   });
-  for (std::size_t c = 0; c < mesh.chunks.size(); ++c) {
-    if (!looks_at(static_cast<std::int64_t>(c)))
-      continue;
-    const MeshChunk& chunk = mesh.chunks[c];
-    const ChunkFaces faces(*this, model, chunk);
-    for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t)
-      for (int face = 0; face < 4; ++face)
-        if (faces.is_open(t, face))
-          open_[chunk.batches.begin + (t - chunk.tets.begin) / lanes] = held_[c] = 1;
+  facets_.assign(mesh.chunks.size(), {});
+  std::map<std::pair<int, int>, FacetFaces> facets; // of a chunk, by star blocks
+  for (std::size_t c = 0; c < mesh.chunks.size() && !star_.empty(); ++c, facets.clear()) {
+    for (int face = 0; face < mesh.chunks[c].faces; ++face) {
+      const FaceTets& tets = mesh.face_tets[mesh.chunks[c].face_batches.begin * lanes + face];
+      const int a = star_of(model, tets.tet_a), b = star_of(model, tets.tet_b);
+      if (a < 0 || b < 0 || a == b || plane_between(model, tets.tet_a, tets.tet_b) != FacePlane::own)
+        continue;
+      FacetFaces& of = facets[std::minmax(a, b)];
+      of.faces.push_back(face);
+      of.first_is_a.push_back(a < b ? 1 : 0);
+    }
+    for (auto& [stars, of] : facets)
+      facets_[c].push_back(std::move(of));
   }
+  open_star_.assign(star_.empty() ? 0 : 1 + *std::max_element(star_.begin(), star_.end()), 0);
+  // Those of the stars are known once all tets of their stars have been seen.
+  for (const bool of_stars : {false, true})
+    for (std::size_t c = 0; c < mesh.chunks.size(); ++c) {
+      if (!looks_at(static_cast<std::int64_t>(c)))
+        continue;
+      const MeshChunk& chunk = mesh.chunks[c];
+      const ChunkFaces faces(*this, model, chunk);
+      for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
+        const int star = star_of(model, t);
+        const bool open = of_stars ? star >= 0 && open_star_[star] != 0 : faces.any_open(t);
+        if (open && star >= 0)
+          open_star_[star] = 1;
+        if (open)
+          open_[chunk.batches.begin + (t - chunk.tets.begin) / lanes] = held_[c] = 1;
+      }
+    }
 }
 
 void StrengthWatch::look(const MeshChunk& chunk, std::int64_t index, const StressBatch* stress,
@@ -362,9 +400,12 @@ std::vector<char> StrengthWatch::due(const Model& model, const State& state, con
         continue;
       const std::int64_t first = chunk.tets.begin + (b - chunk.batches.begin) * lanes;
       for (std::int64_t t = first; t < std::min(first + lanes, chunk.tets.end); ++t)
-        for (int face = faces.may_reach(bounds, state, t, ahead) ? 0 : 4; face < 4; ++face)
-          if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= due_at)
-            due[c] = 1;
+        if (const int star = star_of(model, t); star >= 0)
+          due[c] = due[c] != 0 || (open_star_[star] != 0 && faces.may_reach(bounds, state, t, ahead)) ? 1 : 0;
+        else
+          for (int face = faces.may_reach(bounds, state, t, ahead) ? 0 : 4; face < 4; ++face)
+            if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= due_at)
+              due[c] = 1;
     }
   });
   std::vector<std::int64_t> of_body(model.bodies.size(), 0);
@@ -379,10 +420,17 @@ std::vector<char> StrengthWatch::due(const Model& model, const State& state, con
 
 std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
                                          const std::vector<char>& bodies, int threads, double ahead) const {
-  std::vector<std::vector<int>> found(model.mesh.chunks.size());
+  std::vector<std::vector<int>> found(model.mesh.chunks.size()), loaded(found.size()); // nodes; star blocks
+  const auto of_bodies = [&](std::int64_t c) {
+    return looks_at(c) && has_held_faces(c) && bodies[model.blocks[model.mesh.chunks[c].block].body] != 0;
+  };
+  const auto add_face = [&](std::int64_t c, std::int64_t tet, int face) {
+    for (const int corner : geom::tet_faces[face])
+      found[static_cast<std::size_t>(c)].push_back(model.tets[tet][corner]);
+  };
   for_chunks(static_cast<std::int64_t>(found.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
-    if (!looks_at(c) || !has_held_faces(c) || !bodies[model.blocks[chunk.block].body])
+    if (!of_bodies(c))
       return;
     const ChunkFaces faces(*this, model, chunk);
     const std::vector<UtilisationBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_half;
@@ -391,12 +439,26 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
         continue;
       if (!faces.may_reach(bounds, state, t, ahead))
         continue;
-      for (int face = 0; face < 4; ++face)
-        if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= freed_at)
-          for (const int corner : geom::tet_faces[face])
-            found[c].push_back(model.tets[t][corner]);
+      if (const int star = star_of(model, t); star >= 0)
+        loaded[c].push_back(star);
+      else
+        for (int face = 0; face < 4; ++face)
+          if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= freed_at)
+            add_face(c, t, face);
     }
   });
+  std::set<int> stars;
+  for (const std::vector<int>& of : loaded)
+    stars.insert(of.begin(), of.end());
+  for (std::size_t c = 0; c < found.size() && !stars.empty(); ++c)
+    if (of_bodies(static_cast<std::int64_t>(c))) {
+      const MeshChunk& chunk = model.mesh.chunks[c];
+      const ChunkFaces faces(*this, model, chunk);
+      for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t)
+        for (int face = stars.count(star_of(model, t)) != 0 ? 0 : 4; face < 4; ++face)
+          if (faces.is_open(t, face))
+            add_face(static_cast<std::int64_t>(c), t, face);
+    }
   std::vector<char> nodes(model.node_position.size(), 0);
   for (const std::vector<int>& of : found)
     for (const int node : of)
@@ -407,7 +469,10 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
 std::vector<char> StrengthWatch::to_join(const Model& model, const State& state, Range own,
                                          int threads) const {
   const MeshData& mesh = model.mesh;
-  std::vector<std::vector<int>> found(mesh.chunks.size()); // nodes that stay as they are, by their originals
+  // Nodes that stay as they are, by their originals; behind them star blocks, all nodes of which stay.
+  std::vector<std::vector<int>> found(mesh.chunks.size());
+  const int originals =
+      mesh.original.empty() ? 0 : 1 + *std::max_element(mesh.original.begin(), mesh.original.end());
   for_chunks(own, threads, [&](std::int64_t c) {
     if (!looks_at(c))
       return;
@@ -420,9 +485,12 @@ std::vector<char> StrengthWatch::to_join(const Model& model, const State& state,
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
       const int slot = mesh.tet_slot[t - mesh.first_tet];
       if (state.time - state.near_at[slot / lanes].time[slot % lanes] < calm ||
-          faces.may_reach(bounds_[static_cast<std::size_t>(c)].at_half, state, t, 0))
+          faces.may_reach(bounds_[static_cast<std::size_t>(c)].at_half, state, t, 0)) {
         for (const int node : model.tets[t])
           stays(node);
+        if (const int star = star_of(model, t); star >= 0)
+          found[c].push_back(originals + star);
+      }
     }
     for (int face = 0; face < chunk.faces; ++face) {
       const std::int64_t batch = chunk.face_batches.begin + face / lanes;
@@ -434,8 +502,7 @@ std::vector<char> StrengthWatch::to_join(const Model& model, const State& state,
         stays(node);
     }
   });
-  std::string staying(
-      mesh.original.empty() ? 0 : 1 + *std::max_element(mesh.original.begin(), mesh.original.end()), 0);
+  std::string staying(static_cast<std::size_t>(originals) + open_star_.size(), 0);
   for (const std::vector<int>& of : found)
     for (const int original : of)
       staying[original] = 1;
@@ -443,6 +510,10 @@ std::vector<char> StrengthWatch::to_join(const Model& model, const State& state,
   for (const std::string& of_rank : of_ranks)
     for (std::size_t i = 0; i < staying.size(); ++i)
       staying[i] = static_cast<char>(staying[i] | of_rank[i]);
+  for (std::size_t tet = 0; tet < star_.size(); ++tet)
+    if (star_[tet] >= 0 && staying[originals + star_[tet]] != 0)
+      for (const int node : model.tets[mesh.first_tet + tet])
+        staying[mesh.original[node - mesh.first_node]] = 1;
   std::vector<char> nodes(model.node_position.size(), 0);
   for (std::size_t b = 0; b < model.blocks.size(); ++b) {
     const Block& block = model.blocks[b];

@@ -20,6 +20,11 @@ namespace cdem {
 
 // Parts of its strength at which a face is freed: it is high time; it is freed with others.
 inline constexpr double due_at = 0.9, freed_at = 0.5;
+// Joined blocks without zones (star_blocks.hpp) are freed by the stress of any of their tets, before a corner of their joints
+// may be at its strength: where a moment bends blocks of the length h and the depth d, tets use 0.7 to 1.6 d/h of what the
+// corners use (h from a half to five times d). These are the parts for d = h; others have d/h of them, with the least extent of
+// a block for d and the largest for h.
+inline constexpr double stars_due_at = 0.25, stars_freed_at = 0.125;
 
 // What is known of the tets, eight by eight. Kept between steps; it follows from the State and is found again where it is
 // not known.
@@ -36,6 +41,12 @@ struct alignas(64) SlotsOfTets {
   int a[lanes] = {}, b[lanes] = {};
 };
 
+// Faces between two joined blocks without zones, into those of a chunk; on which side of each the first block stands.
+struct FacetFaces {
+  std::vector<int> faces;
+  std::vector<char> first_is_a;
+};
+
 class StrengthWatch {
 public:
   StrengthWatch() = default; // sees nothing
@@ -45,6 +56,10 @@ public:
 
   // Some face in the chunk may crack. before: the stress of its batches a step ago; null: unknown.
   bool looks_at(std::int64_t chunk) const { return !bounds_.empty() && !bounds_[chunk].at_strength.empty(); }
+  // Of a chunk, by pairs of joined blocks without zones (star_blocks.hpp): the freed faces that are judged on their own plane.
+  const std::vector<FacetFaces>& facets(std::int64_t chunk) const {
+    return facets_[static_cast<std::size_t>(chunk)];
+  }
   // On which plane the face between two tets of the model is judged. On its own where it belongs to a border between regions
   // that has a joint of its own, or beside which nothing else may crack, unless the border is ragged there.
   FacePlane plane_between(const Model&, int tet_a, int tet_b) const;
@@ -81,14 +96,20 @@ private:
     std::vector<UtilisationBound> whole, at_strength, at_half;
   };
   class ChunkFaces;
+  int star_of(const Model& model, std::int64_t tet) const {
+    return star_.empty() ? -1 : star_[static_cast<std::size_t>(tet - model.mesh.first_tet)];
+  }
   void find_planes(const Model&);
 
   std::vector<int> neighbours_;   // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
   std::vector<FacePlane> plane_;  // of the same; empty: all are of the material
   std::vector<RockStrength> own_; // of the same; empty: all are as their body's joint says
   std::vector<Bounds> bounds_;    // of the faces of each chunk; none: it is of no cohesive body
-  std::vector<char> open_;        // per batch of tets, 1: some face may crack and is not freed
-  std::vector<char> held_;        // per chunk, likewise
+  std::vector<int> star_; // per tet of the mesh: its block without zones, or -1; empty: there are none
+  std::vector<std::vector<FacetFaces>> facets_; // per chunk
+  std::vector<char> open_star_;    // per such block, 1: some face of it may crack and is not freed
+  std::vector<char> open_;         // per batch of tets, 1: some face may crack and is not freed
+  std::vector<char> held_;         // per chunk, likewise
   std::vector<SlotsOfTets> slots_; // per batch of faces
 };
 

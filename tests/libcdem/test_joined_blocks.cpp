@@ -236,22 +236,143 @@ TEST_CASE("joined blocks: no facet counts as bent in a prism between rough plate
     CHECK_FALSE((facet.utilisation > 1.25 && facet.is_bent()));
 }
 
-TEST_CASE("joined blocks: a warning tells once of a whole joint that is bent far beyond its strength",
-          "[joined][facets]") {
+namespace {
+
+// Blocks in a row along x, held at x-. `part`: of the end load at which beam theory has the tensile strength at the worst corner
+// of the first joint, in the plane at this angle to y.
+struct Cantilever {
+  Cantilever(const Vec3& size, int blocks, double angle, double modulus = rock().youngs_modulus,
+             cdem::Softening softening = cdem::Softening::none)
+      : s(build({spec_of(size, blocks, modulus, softening)})), direction(0, std::cos(angle), std::sin(angle)),
+        arm(size.x() * (1 - 1.0 / blocks)), area(size.y() * size.z()) {
+    at_strength =
+        strength * area / 6 / arm / (std::abs(direction.y()) / size.y() + std::abs(direction.z()) / size.z());
+    s.conditions.fixes = {fixed(cdem::Selection::side("x-"))};
+  }
+  static cdem::BodySpec spec_of(const Vec3& size, int blocks, double modulus, cdem::Softening softening) {
+    cdem::BodySpec spec = body("rock", geom::grid(size, {blocks, 1, 1}));
+    spec.material.youngs_modulus = modulus;
+    spec.element = cdem::Element::finite_volume;
+    spec.joint.tensile_strength = strength;
+    spec.joint.cohesion = 50e6;
+    spec.joint.softening = softening;
+    if (softening != cdem::Softening::none) {
+      spec.joint.fracture_energy_1 = 1000;
+      spec.joint.fracture_energy_2 = 1e6;
+    }
+    spec.bonding.kind = cdem::BondKind::cohesive;
+    spec.bonding.stiffness_ratio = 1;
+    cdem::join_blocks(spec);
+    return spec;
+  }
+  // pull: Pa, along the row, which lessens the bending the joint bears.
+  bool stands(double part, double pull = 0) {
+    s.conditions.forces = {{cdem::Selection::side("x+"),
+                            part * (1 - pull / strength) * at_strength * direction + Vec3(pull * area, 0, 0),
+                            {}}};
+    return is_stable(s);
+  }
+  static bool is_stable(System& s) {
+    cdem::RelaxOptions options;
+    options.residual = 1e-4;
+    options.stop_on_failure = true;
+    return cdem::relax(s.next_stage(), options).verdict == cdem::Verdict::stable &&
+           s.log.broken_tension + s.log.broken_shear == 0;
+  }
+
+  static constexpr double strength = 2e6;
+  System s;
+  Vec3 direction;
+  double arm, area, at_strength = 0; // m, m2, N
+};
+
+} // namespace
+
+TEST_CASE("joined blocks: a joint cracks by bending at the strength of its worst corner", "[joined][bent]") {
+  const Vec3 size = GENERATE(Vec3(1, 0.5, 0.5), Vec3(4, 0.5, 0.5), Vec3(0.2, 0.2, 0.3));
+  const double angle = GENERATE(0.0, 45.0, 200.0) * degree, modulus = GENERATE(5e9, 70e9);
+  CAPTURE(size.x(), angle, modulus);
+  Cantilever beam(size, 2, angle, modulus);
+  CHECK(beam.stands(0.96));
+  CHECK_FALSE(beam.stands(1.04));
+}
+
+TEST_CASE("joined blocks: force and moment act together, in rows of blocks too", "[joined][bent]") {
+  const double pull = GENERATE(-4e6, 1e6);
+  Cantilever beam({1.6, 0.4, 0.4}, GENERATE(2, 4), 90 * degree);
+  CHECK(beam.stands(0.5, pull));
+  CHECK(beam.stands(0.96, pull));
+  CHECK_FALSE(beam.stands(1.04, pull));
+}
+
+TEST_CASE("joined blocks: a lintel of eight cracks at its load", "[joined][bent]") {
+  System s(build({Cantilever::spec_of({4, 0.5, 0.5}, 8, 30e9, cdem::Softening::none)}));
+  const auto edge = [](double x) {
+    return cdem::Selection::where(
+        [x](const Vec3& at) { return std::abs(at.x() - x) < 1e-6 && at.z() < 1e-6; }, "edge");
+  };
+  s.conditions.fixes = {fixed(edge(0)), fixed(edge(4), "yz")};
+  const auto stands = [&](double part) {
+    const double load = part * Cantilever::strength * 0.25 / 6 * 8 / 16; // q L^2 / 8 = T d^2 / 6
+    s.conditions.tractions = {traction(cdem::Selection::side("z+"), {0, 0, -load})};
+    return Cantilever::is_stable(s);
+  };
+  CHECK(stands(0.95));
+  CHECK_FALSE(stands(1.05));
+}
+
+// The points of the four triangles of a facet bear at most 2.5 times the moment of first cracking: all but the two that are
+// pressed are at the strength. The fully plastic moment is 3 times.
+TEST_CASE("joined blocks: a tough joint bears more moment than a brittle one", "[joined][bent]") {
+  Cantilever beam({1, 0.5, 0.5}, 2, 0, 30e9, cdem::Softening::linear);
+  CHECK(beam.stands(0.96));
+  CHECK(beam.stands(1.5));
+  CHECK(beam.stands(2.2));
+  CHECK_FALSE(beam.stands(2.6));
+}
+
+TEST_CASE("joined blocks: a bent joint cracks at its strength at any rate and step", "[joined][bent]") {
+  const auto [duration, safety] =
+      GENERATE(values<std::pair<double, double>>({{0.1, 0.8}, {0.4, 0.8}, {0.1, 0.4}}));
+  Cantilever beam({1, 0.5, 0.5}, 2, 45 * degree);
+  beam.s.conditions.forces = {{cdem::Selection::side("x+"), beam.at_strength * beam.direction,
+                               [duration = duration](double time) { return time / duration; }}};
+  cdem::RunOptions options;
+  options.safety = safety;
+  options.duration = 0.96 * duration;
+  beam.s.run(options);
+  CHECK(beam.s.log.broken_tension == 0);
+  options.duration = 0.08 * duration;
+  beam.s.run(options);
+  CHECK(beam.s.log.broken_tension > 0);
+}
+
+// Its parts are loaded unevenly: the middle of the joint has no stress.
+TEST_CASE("joined blocks: a bent joint stays freed as a whole while its blocks are loaded",
+          "[joined][bent]") {
+  Cantilever beam({1, 0.5, 0.5}, 2, 0);
+  CHECK(beam.stands(0.6));
+  const auto freed = [&] {
+    return std::count(beam.s.model.mesh.freed.begin(), beam.s.model.mesh.freed.end(), 1);
+  };
+  const auto before = freed();
+  CHECK(before == 10);
+  cdem::RunOptions options;
+  options.duration = 0.05;
+  beam.s.run(options);
+  CHECK(freed() == before);
+  CHECK(energy(beam.s.model, beam.s.state).kinetic < 1e-4 * energy(beam.s.model, beam.s.state).elastic);
+}
+
+TEST_CASE("joined blocks: no warning tells of a bent joint that cracks", "[joined][facets]") {
   struct Listener : cdem::Observer {
     void warning(const std::string& line) override { lines.push_back(line); }
     std::vector<std::string> lines;
   };
-  const auto told = [](double part) {
+  for (const double part : {0.9, 1.5}) {
     const auto listener = std::make_shared<Listener>();
     cdem::ModelSpec spec;
-    spec.bodies = {body("lintel", geom::grid({1, 0.25, 0.25}, {2, 1, 1}))};
-    spec.bodies[0].element = cdem::Element::finite_volume;
-    spec.bodies[0].joint.tensile_strength = 2e6;
-    spec.bodies[0].joint.cohesion = 50e6;
-    spec.bodies[0].bonding.kind = cdem::BondKind::cohesive;
-    spec.bodies[0].bonding.stiffness_ratio = 1;
-    cdem::join_blocks(spec.bodies[0]);
+    spec.bodies = {Cantilever::spec_of({1, 0.25, 0.25}, 2, 30e9, cdem::Softening::none)};
     cdem::Simulation s(spec, 1, listener);
     s.fix(fixed(cdem::Selection::side("x-")));
     s.force({cdem::Selection::side("x+"), {0, 0, -part * 2e6 * std::pow(0.25, 3) / 6 / 0.5}, {}});
@@ -259,17 +380,9 @@ TEST_CASE("joined blocks: a warning tells once of a whole joint that is bent far
     options.residual = 1e-4;
     options.max_steps = 3000;
     s.relax(options);
-    s.relax(options);
-    std::string all;
     for (const std::string& line : listener->lines)
-      if (line.find("do not see bending") != std::string::npos)
-        all += line;
-    return all;
-  };
-  CHECK(told(1.1).empty());
-  CHECK_THAT(told(1.5), Catch::Contains("body \"lintel\"") &&
-                            Catch::Contains("carries 1.5 times its strength") &&
-                            Catch::Contains("zone_size = 0.0625"));
+      CHECK_THAT(line, !Catch::Contains("do not see bending"));
+  }
 }
 
 TEST_CASE("joined blocks: what cannot be one mesh is refused with the reason", "[joined][input]") {
