@@ -205,10 +205,11 @@ double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const
     const double part = 1 - face.damage[point];
     double drawn = fourth_power(part);
     Vec3 bonded = vec(stands.bonded) / (part * drawn);
-    // What pressure stores in the contact of a brittle face may have been the face's own; r0 bears the rest for a step.
-    if (at.carried && !law.softens &&
-        law.kn * vec(stands.pressed).squaredNorm() <= k * (gap + vec(face.offset[point])).squaredNorm()) {
-      drawn = 0;
+    // What pressure stores in the contact of a brittle face, its own springs may have stored. r0 bears the rest for a step.
+    if (at.carried && !law.softens) {
+      const double own = k * (gap + vec(face.offset[point])).squaredNorm(),
+                   contact = law.kn * vec(stands.pressed).squaredNorm();
+      drawn = contact > own ? 1 - own / contact : 0;
       bonded.setZero();
     }
     face.offset[point] = array(vec(stands.pressed) + bonded);
