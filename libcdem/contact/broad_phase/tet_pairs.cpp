@@ -18,8 +18,9 @@ namespace {
 
 using TetPair = std::pair<int, int>;
 
-// Skin of a tetrahedron, over the usual height of one at the surface of its block.
-constexpr double skin_ratio = 0.05;
+// Skin of a tetrahedron, over the usual height of one at the surface of its block; the part of it after which its pairs are found anew
+// with those of others.
+constexpr double skin_ratio = 0.05, renewed_from = 0.4;
 // Rings of tetrahedra below the surface for which pairs are found too: cracks will open some of them.
 constexpr int rings_below = 2;
 // Steps for which pairs are near.
@@ -108,34 +109,109 @@ void set_places(const Model& model, const State& state, TetContacts& of) {
   }
 }
 
-// Adds pairs that no plane of one of them parts by more than their skins.
-void add_near(const std::vector<TetPair>& pairs, TetContacts& to) {
+// Whether it stands otherwise than before for what may touch.
+bool has_changed(const SurfaceTet& now, const std::vector<int>& joint, bool was_at_surface,
+                 const geom::Tet& nodes_before, const std::vector<int>& joint_before) {
+  bool same = now.at_surface == was_at_surface;
+  for (int k = 0; k < 4; ++k)
+    same = same && joint[now.nodes[k]] == joint_before[nodes_before[k]];
+  return !same;
+}
+
+// Asks again what may touch of the pairs with a tetrahedron that has changed.
+void ask_again(const std::vector<char>& changed, TetContacts& of) {
+  for (std::size_t p = 0; p < of.pairs.count(); ++p) {
+    const int a = of.pairs.a[p], b = of.pairs.b[p];
+    if (!changed[a] && !changed[b])
+      continue;
+    const bool free = may_touch(of, of.tets[a], of.tets[b]);
+    if (free == (of.may_touch[p] != 0))
+      continue;
+    of.may_touch[p] = static_cast<char>(free);
+    of.pairs.allowed[p] = 0;
+    of.fresh = true;
+  }
+}
+
+// Of these pairs, those that no plane of one of them parts by more than their skins, in the same order.
+TetContacts near_among(const std::vector<TetPair>& pairs, const TetContacts& of) {
   constexpr std::size_t at_a_time = 64 * lanes;
+  TetContacts found; // its pairs alone
   std::vector<TetPairView> views(at_a_time / lanes);
   for (std::size_t begin = 0; begin < pairs.size(); begin += at_a_time) {
     const std::size_t count = std::min(at_a_time, pairs.size() - begin), full = (count + lanes - 1) / lanes;
     for (std::size_t i = 0; i < lanes * full; ++i) {
       const auto& [a, b] = pairs[begin + std::min(i, count - 1)];
-      views[i / lanes].set(static_cast<int>(i % lanes), to.tets[a].nodes, to.tets[b].nodes);
+      views[i / lanes].set(static_cast<int>(i % lanes), of.tets[a].nodes, of.tets[b].nodes);
     }
-    bound_deepest(to.place.data(), views.data(), static_cast<std::int64_t>(full));
+    bound_deepest(of.place.data(), views.data(), static_cast<std::int64_t>(full));
     for (std::size_t i = 0; i < count; ++i) {
       const double apart = -views[i / lanes].deepest[i % lanes];
-      if (apart > 2 * to.skin)
+      if (apart > 2 * of.skin)
         continue;
       const auto& [a, b] = pairs[begin + i];
-      const SurfaceTet &one = to.tets[a], &other = to.tets[b];
-      to.pairs.a.push_back(a);
-      to.pairs.b.push_back(b);
-      to.pairs.allowed.push_back(rounded_down(apart));
-      to.may_touch.push_back(static_cast<char>(may_touch(to, one, other)));
+      WatchedPairs& near = found.pairs;
+      near.a.push_back(a);
+      near.b.push_back(b);
+      near.allowed.push_back(0);
+      for (std::vector<float>& then : near.then)
+        then.push_back(0);
+      near.set(near.count() - 1, of.paths, rounded_down(apart));
+      found.may_touch.push_back(static_cast<char>(may_touch(of, of.tets[a], of.tets[b])));
     }
   }
+  return found;
 }
 
-void find_anew(const Model& model, const State& state, ContactWork& work) {
-  auto found = std::make_shared<TetContacts>();
-  TetContacts& to = *found;
+// Finds anew the pairs of the tetrahedra that have gone a part of their skins; a new one counts as gone. All others keep theirs.
+void find_anew(TetContacts& of) {
+  std::vector<char> anew(of.tets.size());
+  for (std::size_t t = 0; t < anew.size(); ++t) {
+    anew[t] = static_cast<char>(of.paths.path[t] > renewed_from * of.skin);
+    if (anew[t] == 0)
+      continue;
+    of.path_then[t] -= of.paths.path[t]; // what it has gone since then stays
+    of.paths.clear(t);
+    geom::Box& box = of.boxes[t];
+    box = {};
+    for (const int node : of.tets[t].nodes)
+      box.extend(geom::Vec3(of.place[node].x, of.place[node].y, of.place[node].z) - of.way[of.tets[t].block]);
+    box.min.array() -= of.skin;
+    box.max.array() += of.skin;
+  }
+  std::vector<TetPair> pairs = geom::touching_pairs(of.boxes, anew);
+  if (of.nodes_begin.size() > 2)
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                               [&](const TetPair& pair) {
+                                 return of.tets[pair.first].block != of.tets[pair.second].block;
+                               }),
+                pairs.end());
+  const TetContacts found = near_among(pairs, of);
+  const WatchedPairs before = std::exchange(of.pairs, {});
+  const std::vector<char> might = std::exchange(of.may_touch, {});
+  std::size_t next = 0;
+  const auto add_found_before = [&](const TetPair& pair) {
+    for (; next < found.pairs.count() && TetPair(found.pairs.a[next], found.pairs.b[next]) < pair; ++next) {
+      of.pairs.add(found.pairs, next, found.pairs.a[next], found.pairs.b[next]);
+      of.may_touch.push_back(found.may_touch[next]);
+    }
+  };
+  for (std::size_t p = 0; p < before.count(); ++p) {
+    const int a = before.a[p], b = before.b[p];
+    if (anew[a] || anew[b])
+      continue;
+    add_found_before({a, b});
+    of.pairs.add(before, p, a, b);
+    of.may_touch.push_back(might[p]);
+  }
+  add_found_before({std::numeric_limits<int>::max(), 0});
+  of.fresh = true;
+}
+
+// The tetrahedra that may come to the surface before long. Those that were listed before go on, with the pairs between them.
+void list_tets(const Model& model, const State& state, ContactWork& work) {
+  auto listed = std::make_shared<TetContacts>();
+  TetContacts& to = *listed;
   to.number.assign(model.tets.size(), -1);
   to.tets_begin.push_back(0);
   to.skin = std::numeric_limits<double>::infinity();
@@ -149,66 +225,75 @@ void find_anew(const Model& model, const State& state, ContactWork& work) {
   to.paths.assign(to.tets.size());
   to.path_then.assign(to.tets.size(), 0.0);
   to.limit.assign(to.tets.size(), -1.0);
+  to.boxes.resize(to.tets.size());
+  to.way.assign(model.blocks.size(), geom::Vec3::Zero());
   to.joint = joints_of(model, state, work);
-  std::vector<geom::Box> boxes(to.tets.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (const int node : to.tets[i].nodes)
-      boxes[i].extend(geom::Vec3(to.place[node].x, to.place[node].y, to.place[node].z));
-    boxes[i].min.array() -= to.skin;
-    boxes[i].max.array() += to.skin;
+  std::vector<char> changed(to.tets.size(), 0);
+  std::vector<int> now; // of those listed before
+  if (const TetContacts* const before = work.tet_contacts.get(); before && before->skin == to.skin) {
+    to.way = before->way;
+    to.steps = before->steps;
+    to.steps_then = before->steps_then;
+    now.assign(before->tets.size(), -1);
+    for (std::size_t t = 0; t < to.tets.size(); ++t) {
+      const int was = before->number[to.tets[t].tet];
+      if (was < 0)
+        continue;
+      now[was] = static_cast<int>(t);
+      to.paths.copy(was, before->paths, t);
+      to.path_then[t] = before->path_then[was];
+      to.boxes[t] = before->boxes[was];
+      const SurfaceTet& then = before->tets[was];
+      changed[t] =
+          static_cast<char>(has_changed(to.tets[t], to.joint, then.at_surface, then.nodes, before->joint));
+    }
+    for (std::size_t p = 0; p < before->pairs.count(); ++p)
+      if (const int a = now[before->pairs.a[p]], b = now[before->pairs.b[p]]; a >= 0 && b >= 0) {
+        to.pairs.add(before->pairs, p, a, b);
+        to.may_touch.push_back(before->may_touch[p]);
+      }
+    ask_again(changed, to);
   }
-  std::vector<TetPair> pairs = geom::touching_pairs(boxes);
-  if (to.nodes_begin.size() > 2)
-    pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                               [&](const TetPair& pair) {
-                                 return to.tets[pair.first].block != to.tets[pair.second].block;
-                               }),
-                pairs.end());
-  add_near(pairs, to);
-  for (std::vector<float>& then : to.pairs.then)
-    then.assign(to.pairs.count(), 0.0F);
-  work.tet_contacts = std::move(found);
+  std::vector<char> is_new(to.tets.size(), 1);
+  for (const int t : now)
+    if (t >= 0)
+      is_new[t] = 0;
+  for (std::size_t t = 0; t < is_new.size(); ++t)
+    if (is_new[t]) {
+      to.paths.path[t] = 2 * to.skin;
+      to.path_then[t] = 2 * to.skin;
+    }
+  work.tet_contacts = std::move(listed);
 }
 
-// What pairs may touch, after contact has been told of bonds. False where a tetrahedron has come to the surface for which no pairs
-// are known.
+// What pairs may touch, after contact has been told of bonds. False where a tetrahedron has come to the surface that is not listed.
 bool told_anew(const Model& model, const State& state, ContactWork& work) {
   TetContacts& of = *work.tet_contacts;
-  std::vector<char> changed(of.tets.size(), 0);
+  std::vector<char> at_surface(of.tets.size(), 0);
   std::size_t blocks = 0;
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block) {
     if (!touches_itself(model, work.movers, block))
       continue;
     ++blocks;
-    const std::vector<char> at_surface = tets_at_surface(model, work.movers, block);
-    for (std::size_t i = 0; i < at_surface.size(); ++i) {
+    const std::vector<char> of_block = tets_at_surface(model, work.movers, block);
+    for (std::size_t i = 0; i < of_block.size(); ++i) {
       const int t = of.number[model.blocks[block].tet_begin + i];
-      if (t < 0 && at_surface[i])
+      if (t < 0 && of_block[i])
         return false;
-      if (t < 0 || of.tets[t].at_surface == (at_surface[i] != 0))
-        continue;
-      of.tets[t].at_surface = at_surface[i] != 0;
-      changed[t] = 1;
+      if (t >= 0)
+        at_surface[t] = of_block[i];
     }
   }
   if (blocks + 1 != of.nodes_begin.size())
     return false;
-  std::vector<int> joint = joints_of(model, state, work);
-  for (std::size_t t = 0; t < changed.size(); ++t)
-    for (const int node : of.tets[t].nodes)
-      changed[t] = static_cast<char>(changed[t] != 0 || joint[node] != of.joint[node]);
-  std::swap(of.joint, joint);
-  for (std::size_t p = 0; p < of.pairs.count(); ++p) {
-    const int a = of.pairs.a[p], b = of.pairs.b[p];
-    if (!changed[a] && !changed[b])
-      continue;
-    const bool free = may_touch(of, of.tets[a], of.tets[b]);
-    if (free == (of.may_touch[p] != 0))
-      continue;
-    of.may_touch[p] = static_cast<char>(free);
-    of.pairs.allowed[p] = 0;
-    of.fresh = true;
+  const std::vector<int> joint = std::exchange(of.joint, joints_of(model, state, work));
+  std::vector<char> changed(of.tets.size(), 0);
+  for (std::size_t t = 0; t < changed.size(); ++t) {
+    SurfaceTet& tet = of.tets[t];
+    const bool was = std::exchange(tet.at_surface, at_surface[t] != 0);
+    changed[t] = static_cast<char>(has_changed(tet, of.joint, was, tet.nodes, joint));
   }
+  ask_again(changed, of);
   std::fill(of.limit.begin(), of.limit.end(), -1.0);
   return true;
 }
@@ -267,6 +352,8 @@ void move(const Model& model, const State& state, const ContactWork& work, TetCo
       sums[i % 4] += simd::load(state.velocity[of.nodes[i]]);
     const simd::Quad mean = ((sums[0] + sums[1]) + (sums[2] + sums[3])) /
                             std::max(1, of.nodes_begin[block + 1] - of.nodes_begin[block]);
+    if (of.tets_begin[block] < of.tets_begin[block + 1])
+      of.way[of.tets[of.tets_begin[block]].block] += work.step * geom::Vec3(mean[0], mean[1], mean[2]);
     add_step(state.velocity.data(), {mean[0], mean[1], mean[2], 0}, work.step, of.corner,
              of.tets_begin[block], of.tets_begin[block + 1], of.paths);
   }
@@ -315,22 +402,22 @@ void find_tet_pairs(const Model& model, const State& state, ContactWork& work, b
       any = any || touches_itself(model, work.movers, block);
     if (!any)
       work.tet_contacts = nullptr;
-    else if (!work.tet_contacts) {
-      find_anew(model, state, work);
+    else if (work.tet_contacts)
+      move(model, state, work, *work.tet_contacts);
+    if (any && (!work.tet_contacts || !told_anew(model, state, work))) {
+      list_tets(model, state, work);
       anew = true;
     }
+  } else if (work.tet_contacts) {
+    move(model, state, work, *work.tet_contacts);
   }
   if (!work.tet_contacts)
     return;
-  move(model, state, work, *work.tet_contacts);
-  const TetContacts& before = *work.tet_contacts;
-  const bool left = std::any_of(before.paths.path.begin(), before.paths.path.end(),
-                                [&](double path) { return path > before.skin; });
-  if (left || (told && !told_anew(model, state, work))) {
-    find_anew(model, state, work);
-    anew = true;
-  }
   TetContacts& of = *work.tet_contacts;
+  anew = anew ||
+         std::any_of(of.paths.path.begin(), of.paths.path.end(), [&](double path) { return path > of.skin; });
+  if (anew)
+    find_anew(of);
   if (anew || forgets_overlaps(state, work)) // a pair that has just parted has a contact that must end
     wake_contacts(state, of);
   if (any_beyond(of.paths.path, of.limit))

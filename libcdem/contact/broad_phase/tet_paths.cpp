@@ -115,6 +115,30 @@ void TetPaths::assign(std::size_t count) {
     sum.assign(count, 0.0F);
 }
 
+void TetPaths::copy(std::size_t from, const TetPaths& before, std::size_t to) {
+  path[to] = before.path[from];
+  swing[to] = before.swing[from];
+  for (int axis = 0; axis < 3; ++axis)
+    drift[axis][to] = before.drift[axis][from];
+  for (int i = 0; i < 4; ++i)
+    now[i][to] = before.now[i][from];
+}
+
+void TetPaths::clear(std::size_t tet) {
+  for (std::vector<double>* const sum : {&path, &swing, &drift[0], &drift[1], &drift[2]})
+    (*sum)[tet] = 0;
+  for (std::vector<float>& sum : now)
+    sum[tet] = 0;
+}
+
+void WatchedPairs::add(const WatchedPairs& before, std::size_t place, int one, int other) {
+  a.push_back(one);
+  b.push_back(other);
+  for (std::size_t i = 0; i < then.size(); ++i)
+    then[i].push_back(before.then[i][place]);
+  allowed.push_back(before.allowed[place]);
+}
+
 void WatchedPairs::clear() {
   a.clear();
   b.clear();

@@ -18,6 +18,8 @@ struct TetPaths {
   std::array<std::vector<float>, 4> now;    // drift and swing
 
   void assign(std::size_t count);
+  void copy(std::size_t from, const TetPaths& before, std::size_t to);
+  void clear(std::size_t tet);
 };
 
 // Adds a step of the tetrahedra [begin, end). corner: their nodes. velocity, frame: m/s; step: s. Paths and swings are rounded up.
@@ -32,6 +34,7 @@ struct WatchedPairs {
 
   std::size_t count() const { return a.size(); }
   void clear();
+  void add(const WatchedPairs& before, std::size_t place, int one, int other);
   // Takes the pair as it stands now.
   void set(std::size_t place, const TetPaths&, float may_go);
 };

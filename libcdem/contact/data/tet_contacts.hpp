@@ -34,8 +34,11 @@ struct TetContacts {
   std::array<std::vector<int>, 4> corner; // nodes of the tetrahedra
   std::vector<int> tets_begin;            // by block that touches itself, into tets
   TetPaths paths;                         // of the tetrahedra
-  std::vector<int> joint;                 // (n_nodes), the smallest node of the joint
-  double skin = 0;                        // m, how far any may go before the pairs are found anew
+  std::vector<geom::Box>
+      boxes; // m, of each, within its skin of where its pairs were found; past the way of the frame
+  std::vector<geom::Vec3> way; // m, by block of the model: of the frame that paths are measured in
+  std::vector<int> joint;      // (n_nodes), the smallest node of the joint
+  double skin = 0;             // m, how far any may go before its pairs are found anew
 
   // Pairs, into `tets`, a < b; by a, then b.
   WatchedPairs pairs;
