@@ -11,12 +11,13 @@
 
 namespace cdem {
 
+struct BondWork;
 struct Model;
 struct State;
 
 struct SlidingFriction {
-  // Sums over the contacts of two blocks, smaller first, of which one deforms. v: slip of the two there if each moved as a rigid
-  // body, w: of the contact itself, both along its face.
+  // Sums over the contacts of two blocks, smaller first, of which one deforms, and over the springs between them that are
+  // contacts. v: slip of the two there if each moved as a rigid body, w: of the contact itself, both along its face.
   struct Sums {
     // N m, sum of tan(phi) N v dt, of the first past the second: what shakes to and fro does not count.
     geom::Vec3 law = geom::Vec3::Zero();
@@ -27,6 +28,7 @@ struct SlidingFriction {
     double span = 0;        // J s, sum of tan(phi) N L dt, L the edge of a cube as large as the smaller block
     double time = 0;        // s
     std::int64_t looks = 0; // that found more than a hundredth of the path so far
+    bool joint = false;     // springs are among them
 
     // The soles go with the blocks, which on the whole have moved past each other by more than what gives. Where friction does
     // less than half of what its law asks for, they stick and roll over each other.
@@ -39,7 +41,8 @@ struct SlidingFriction {
   std::size_t blocks = 0; // of the model that they belong to
 
   // time: s, since the last look, some hundred steps ago. broken: per block; pieces move by themselves and do not count.
-  void look(const Model&, const State&, const std::vector<char>& broken, double time);
+  // Joints with a law of their own do not count either.
+  void look(const Model&, const State&, const BondWork&, const std::vector<char>& broken, double time);
 };
 
 } // namespace cdem

@@ -246,12 +246,20 @@ std::int64_t Stage::synchronise_stress(RunLog& log) {
 // The steps of a relaxation are no times.
 void Stage::look_at_sliding() {
   const std::vector<Block>& blocks = context_.model.blocks;
-  if (!in_real_time || !context_.sliding || context_.model.surface.empty() ||
-      std::none_of(blocks.begin(), blocks.end(), [](const Block& b) { return b.meshed && b.rigid < 0; }))
+  if (!in_real_time || !context_.sliding ||
+      std::none_of(blocks.begin(), blocks.end(), [](const Block& b) { return b.rigid < 0; }))
+    return;
+  const Range own = work.shared->shares().points();
+  const std::vector<std::uint8_t>& modes = context_.state.bond_mode;
+  const bool dry = ranks().any(std::any_of(modes.begin() + own.begin, modes.begin() + own.end,
+                                           [](std::uint8_t mode) { return !is_intact(mode); }));
+  if (!dry && context_.model.surface.empty())
     return;
   see_whole();
+  if (dry)
+    shares_.gather(work.bond);
   const double before = std::exchange(sliding_seen_, context_.state.time);
-  context_.sliding->look(context_.model, context_.state, work.contact.movers.broken,
+  context_.sliding->look(context_.model, context_.state, work.bond, work.contact.movers.broken,
                          context_.state.time - before);
 }
 

@@ -110,6 +110,37 @@ m:run{ duration = 0.1 }
   CHECK(told(1, 25).empty()); // it stands
 }
 
+TEST_CASE("a block that slides face on face below its friction is told of, and a damped one is not",
+          "[lua][contact]") {
+  const auto told = [](const std::string& element, const std::string& material, double height) {
+    return those_with(warnings_of("local cdem = require 'cdem'\n"
+                                  "local element, height = '" +
+                                  element + "', " + std::to_string(height) + R"(
+local g, angle = 9.81, math.rad(33)
+local stone = cdem.elastic{ youngs_modulus = 20e9, poissons_ratio = 0.2, density = 2400)" +
+                                  material + R"( }
+local m = cdem.model{
+  bodies = { { name = "floor", material = stone, element = element,
+               shape = cdem.box{ size = {4, 2, 1}, origin = {-1.5, -0.5, -1} } },
+             { name = "block", material = stone, element = element, shape = cdem.box{ size = {1, 1, height} } } },
+  contacts = { { "floor", "block", cdem.coulomb{ friction_angle = 30 } } } }
+m:fix{ on = "floor" }
+m:gravity{ vector = {g * math.sin(angle), 0, -g * math.cos(angle)} }
+m:run{ duration = 0.1 }
+)"),
+                      "of the work that its law asks for");
+  };
+  for (const char* element : {"finite_volume", "small_strain"}) {
+    const std::vector<std::string> vibrates = told(element, "", 0.25);
+    REQUIRE(vibrates.size() == 1);
+    CHECK_THAT(vibrates[0],
+               Contains("contact of \"floor\" and \"block\": they slide, and friction has done 0.9") &&
+                   Contains("the materials a stiffness_damping of 0.05 h"));
+  }
+  CHECK(told("finite_volume", ", stiffness_damping = 3e-5", 0.25).empty());
+  CHECK(told("rigid", "", 0.25).empty());
+}
+
 TEST_CASE("a block that sticks to a ground which shakes is not told of as one that slides",
           "[lua][contact]") {
   const std::vector<std::string> told = warnings_of(R"(

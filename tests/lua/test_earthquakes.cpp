@@ -193,6 +193,34 @@ assert(math.abs(slid / x - 1) < 0.1, "slid " .. slid .. " m where a rigid block 
   script.run();
 }
 
+TEST_CASE("a deformable block face on face slides by Newmark's law if its material is damped",
+          "[lua][contact][newmark]") {
+  Script script(R"(
+local cdem = require "cdem"
+local g, push, duration, modulus, density = 9.81, 0.6, 0.3, 10e9, 2500
+local sine, cosine, friction = math.sin(math.rad(25)), math.cos(math.rad(25)), math.tan(math.rad(40))
+local stone = cdem.elastic{ youngs_modulus = modulus, poissons_ratio = 0.2, density = density,
+                            stiffness_damping = 0.05 * 4^(1/3) * math.sqrt(density / modulus) }
+local m = cdem.model{
+  bodies = { { name = "plane", material = stone, shape = cdem.box{ size = {8, 4, 1}, origin = {-2, -1, -1} } },
+             { name = "block", material = stone, shape = cdem.box{ size = {2, 2, 1} } } },
+  contacts = { { "plane", "block", cdem.coulomb{ friction_angle = 40 } } } }
+m:fix{ on = "plane" }
+m:gravity{ vector = {g * sine, 0, -g * cosine} }
+m:relax{}
+m:gravity{ vector = {g * (sine + push * cosine), 0, -g * (cosine - push * sine)} }
+m:run{ duration = duration }
+m:gravity{ vector = {g * sine, 0, -g * cosine} }
+m:run{ duration = 0.45 }
+local speeds_up = g * (sine + push * cosine - friction * (cosine - push * sine))
+local slows_down = g * (friction * cosine - sine)
+local newmark = speeds_up * duration^2 / 2 * (1 + speeds_up / slows_down)
+local slid = m:mean("displacement.x", "block")
+assert(math.abs(slid / newmark - 1) < 0.01, "slid " .. slid .. " m where Newmark's block slides " .. newmark)
+)");
+  script.run();
+}
+
 TEST_CASE("the friction of a plate does not feel what presses on its deformable ground far off",
           "[lua][contact]") {
   Script script(R"(

@@ -171,13 +171,18 @@ void warn_of_sliding(Session& session, ModelObject& model, const Stage& stage) {
     const double law = sums.law.norm();
     std::array<int, 2> bodies{blocks[pair[0]].body, blocks[pair[1]].body};
     std::sort(bodies.begin(), bodies.end());
-    if (sums.slides() && law > least && sums.done < 0.985 * law && model.told_sliding.insert(bodies).second)
+    if (sums.slides() && law > least && sums.done < 0.985 * law && model.told_sliding.insert(bodies).second) {
+      const std::string advice =
+          !sums.joint ? "the contact a lower restitution (0.5 serves up to 45 degrees of friction), or the "
+                        "materials stiffness_damping"
+                      : "the materials a stiffness_damping of 0.05 h sqrt(density / youngs_modulus), h the "
+                        "size of a block; blocks of small strain have none: leave their element out";
       session.warn(of_stage(stage) + shown_pair(model.body_names[bodies[0]], model.body_names[bodies[1]]) +
                    ": they slide, and friction has done " + three_digits(sums.done / law) +
                    " of the work that its law asks for: while a sole vibrates, the slip of some of its "
-                   "points reverses and others stick; start the load slowly or with model:relax, and give "
-                   "the contact a lower restitution (0.5 serves up to 45 degrees of friction), or the "
-                   "materials stiffness_damping");
+                   "points reverses and others stick; start the load slowly or with model:relax, and give " +
+                   advice);
+    }
   }
 }
 
