@@ -40,7 +40,7 @@ void add(Node* force, int place, const Vec3& f) {
 
 // The faces that have never cracked, eight side by side: they need no axes.
 CDEM_INLINE void holding_kernel(const FaceBatch* batches, int faces, const Node* displacement,
-                                const FaceStateBatch* state, Node* force) {
+                                const FaceStateBatch* state, Node* force, double* pull2) {
   using simd::Oct;
   using simd::Vec;
   for (int i = 0; i * lanes < faces; ++i) {
@@ -49,15 +49,19 @@ CDEM_INLINE void holding_kernel(const FaceBatch* batches, int faces, const Node*
     const auto holds = simd::lanes_with<Oct>(reinterpret_cast<const std::uint8_t*>(state[i].stage),
                                              static_cast<std::uint8_t>(FaceStage::holding));
     k = holds ? k : Oct{};
-    if (!simd::any(holds))
+    if (!simd::any(holds)) {
+      simd::store_wide<Oct>(pull2 + i * lanes, Oct{});
       continue;
+    }
     Vec d[3];
     for (int corner = 0; corner < 3; ++corner)
       d[corner] = simd::minus(simd::gather(displacement, batch.place_b[corner]),
                               simd::gather(displacement, batch.place_a[corner]));
     // The weights of points and corners, 1/6 + 1/2 where they are one, applied twice: 1/4 + 1/4 where they are one.
     const Vec sum = simd::plus(simd::plus(d[0], d[1]), d[2]);
-    const Oct quarter = 0.25 * k;
+    const Oct quarter = 0.25 * k, mean = k / (3.0 * simd::load(batch.area));
+    simd::store_wide<Oct>(pull2 + i * lanes,
+                          Oct(mean * mean * (sum.x * sum.x + sum.y * sum.y + sum.z * sum.z)));
     for (int corner = 0; corner < 3; ++corner) {
       const Vec f = simd::scaled(quarter, simd::plus(sum, d[corner]));
       simd::scatter_add(force, batch.place_a[corner], f);
@@ -97,8 +101,8 @@ SofteningLaw cohesive_law(const Joint& joint, double k) {
 
 void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion& motion, const FaceLaw& law,
                           const FaceJoints& joints, bool breaking, FaceStateBatch* state,
-                          CohesiveFace* cohesive, Node* force, FaceSums& sums) {
-  simd::best<holding_kernel>(batches, faces, motion.displacement, state, force);
+                          CohesiveFace* cohesive, Node* force, FaceSums& sums, double* pull2) {
+  simd::best<holding_kernel>(batches, faces, motion.displacement, state, force, pull2);
   thread_local std::vector<int> cracking, resumed, others;
   for (std::vector<int>* list : {&cracking, &resumed, &others})
     list->clear();
@@ -118,8 +122,8 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
     add(parted | preloaded, others);
   }
   const CohesiveChunk chunk{
-      batches,  motion, joints, law.tan_friction, breaking, law.hands_over, law.hand_over_due, state,
-      cohesive, force,  sums};
+      batches, motion, joints, law.tan_friction, breaking, law.hands_over, law.hand_over_due, state, cohesive,
+      force,   sums,   pull2};
   advance_cracking(chunk, cracking.data(), static_cast<int>(cracking.size()));
   hold_resumed(chunk, resumed.data(), static_cast<int>(resumed.size()));
   for (const int i : others) {
@@ -185,12 +189,20 @@ std::array<Vec3, 3> carried_tractions(const FaceBatch& batch, int lane, const Fa
   return tractions;
 }
 
+Vec3 mean_traction(const FaceBatch& batch, int lane, const FaceFrame& f, const Joint& joint,
+                   const FaceStateBatch& state, const CohesiveFace& face) {
+  Vec3 force = Vec3::Zero();
+  for (int point = 0; point < 3; ++point)
+    force += cohesive_spring(batch, lane, f, point, joint, state, face).force;
+  return force / (3 * batch.area[lane]);
+}
+
 double begin_crack(const FaceBatch& batch, int lane, const FaceMoment& at, const Joint& joint, const Vec3& m,
                    BondMode mode, FaceStateBatch& state, CohesiveFace& face) {
   const FaceFrame& f = at.frame;
   const double k = penalty(batch, lane), before = stored(batch, lane, f, joint, state, face);
   const geom::Mat3 stress = at.stress + at.relieved;
-  const Vec3 on_plane = f.in_axes(stress * m), on_face = f.in_axes(stress * f.normal);
+  const Vec3 on_plane = f.in_axes((at.borne + at.relieved) * m), on_face = f.in_axes(stress * f.normal);
   state.stage[lane] = FaceStage::cracking;
   face.plane = array(f.in_axes(m));
   const SofteningLaw law = cohesive_law(joint, k);

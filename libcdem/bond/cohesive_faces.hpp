@@ -2,7 +2,7 @@
 //
 // A face that holds has the traction of element/face_jumps.hpp; its penalty k (j + o) is computed here, with j the
 // relative displacement at three points of the face, and o = 0 unless a crack began there and did not continue. When
-// the mean stress s of the two tets reaches the strength on a plane with the normal m (fracture/critical_plane.hpp) the
+// the stress s that it bears reaches the strength on a plane with the normal m (fracture/begin_cracks.hpp) the
 // face cracks. From then on its law acts on that plane, for any direction n of the face, and does not depend on the
 // stress of the tets:
 //   t = (m.n) law(j) + (1 - D) r0
@@ -38,9 +38,11 @@ constexpr double crack_stiffness = 1.8;
 // The law of a cracked face of a body with this joint, whose penalty is k, Pa/m.
 SofteningLaw cohesive_law(const Joint&, double k);
 
-// As face_bond_forces, for the batches of a chunk of a cohesive body. cohesive: its first face first.
+// As face_bond_forces, for the batches of a chunk of a cohesive body. cohesive: its first face first. pull2: written, Pa2, per
+// face, the square of what mean_traction has of a face that holds, 0 of others.
 void cohesive_face_forces(const FaceBatch*, int faces, const FaceMotion&, const FaceLaw&, const FaceJoints&,
-                          bool breaking, FaceStateBatch*, CohesiveFace* cohesive, Node* force, FaceSums&);
+                          bool breaking, FaceStateBatch*, CohesiveFace* cohesive, Node* force, FaceSums&,
+                          double* pull2);
 
 // As face_spring; the face stands as `f`.
 FaceSpring cohesive_spring(const FaceBatch&, int lane, const FaceFrame& f, int point, const Joint&,
@@ -51,7 +53,8 @@ struct FaceMoment {
   FaceFrame frame;
   std::array<geom::Vec3, 3> moved{geom::Vec3::Zero(), geom::Vec3::Zero(),
                                   geom::Vec3::Zero()}; // m, in space, change of `gap` since then
-  geom::Mat3 stress = geom::Mat3::Zero();              // Pa, in space, s above
+  geom::Mat3 stress = geom::Mat3::Zero();              // Pa, in space, mean of the two tets
+  geom::Mat3 borne = geom::Mat3::Zero();               // Pa, in space, s above
   geom::Mat3 relieved = geom::Mat3::Zero(); // Pa, change of the stress where a crack begins at the strength
   // Pa, in space, what each point carries where the face is judged by that: between joined blocks without zones.
   std::optional<std::array<geom::Vec3, 3>> carried = {};
@@ -61,6 +64,9 @@ struct FaceMoment {
 std::array<geom::Vec3, 3> carried_tractions(const FaceBatch&, int lane, const FaceFrame&,
                                             const geom::Mat3& stress, const Joint&, FaceStage,
                                             const CohesiveFace&);
+// Pa, in space, mean of the points: of a face that cracks, or what the penalty of one that holds adds to that of its stress.
+geom::Vec3 mean_traction(const FaceBatch&, int lane, const FaceFrame&, const Joint&, const FaceStateBatch&,
+                         const CohesiveFace&);
 
 // Begins a crack on the plane with the unit normal m; a brittle face is broken, in this mode, and lets go in the next step.
 // Returns the energy that the face no longer stores, J (negative where it stores more), with the half step's work that its

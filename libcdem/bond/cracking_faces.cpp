@@ -426,6 +426,10 @@ CDEM_INLINE void hold_group(const CohesiveChunk& chunk, const int* faces, int co
     const Triple<V> w0 = memories.offset_of(point);
     pull[point] = now.in_space(kn * (now.gap[point] + w0));
   }
+  const Triple<V> mean = (1.0 / 3) / g.area * (pull[0] + pull[1] + pull[2]);
+  const V square = dot(mean, mean);
+  for (int lane = 0; lane < g.count; ++lane)
+    chunk.pull2[g.face[lane]] = square[lane];
   share<V>(g, pull, chunk.force);
 }
 

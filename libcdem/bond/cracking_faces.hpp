@@ -19,6 +19,7 @@ struct CohesiveChunk {
   CohesiveFace* cohesive;
   Node* force;
   FaceSums& sums;
+  double* pull2; // as in cohesive_face_forces
 };
 
 // faces: of the chunk, ascending.

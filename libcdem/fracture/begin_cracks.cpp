@@ -111,7 +111,8 @@ public:
               std::int64_t index, const CrackingStep& step)
       : model_(model), state_(state), watch_(watch), near_(near), index_(index), step_(step),
         chunk_(model.mesh.chunks[index]), body_(model.bodies[model.blocks[chunk_.block].body]), rocks_(body_),
-        joints_(model, state, chunk_) {}
+        joints_(model, state, chunk_),
+        has_joints_(!body_.bonding.everywhere || !body_.region_laws.joints.empty()) {}
 
   BegunCracks operator()() {
     find_facet_tractions();
@@ -131,7 +132,8 @@ public:
   }
 
 private:
-  // Ascending: those that crack and may end, and of those that hold the ones that may be at what is left of their strength.
+  // Ascending: those that crack and may end, and of those that hold the ones that may be at what is left of their strength. The
+  // part of its strength that a joint uses is no more than what the stress of its tets and what its springs use together.
   std::vector<int> faces_to_look_at() const {
     thread_local std::vector<SlotsOfFaces> near;
     thread_local std::vector<std::uint8_t> beyond;
@@ -140,6 +142,7 @@ private:
     cracking.clear();
     std::vector<int> faces;
     const std::int64_t first = chunk_.face_batches.begin * lanes;
+    const double harmless = watch_.harmless_stress(index_);
     for (int begin = 0; begin < chunk_.faces; begin += lanes) {
       const std::int64_t batch = (first + begin) / lanes;
       const FaceStateBatch& state = state_.faces[batch];
@@ -150,15 +153,20 @@ private:
         __builtin_prefetch(&state_.cohesive[first + begin + lane].damage);
         cracking.push_back(begin + lane);
       });
-      each_lane(hold != 0 ? hold & near_faces(batch) : 0, [&](int lane) {
+      const unsigned pulled = has_joints_ ? pulled_faces(batch, harmless) | resumed : 0;
+      each_lane(hold != 0 ? hold & (near_faces(batch) | pulled) : 0, [&](int lane) {
         const int face = begin + lane;
         if (is_in_facet(face))
           return;
         const bool resumes = (resumed >> lane & 1u) != 0;
-        if (resumes && rock_of(face).curve.on()) // its bounds are not in proportion to what is left
+        const double pull =
+            has_joints_ ? most_of_traction * std::sqrt(near_.pull2[first + face]) / harmless : 0;
+        const double left = (resumes ? 1 - damage_of(state_.cohesive[first + face]) : 1) - pull;
+        // The bounds of a curve are not in proportion to what is left.
+        if (!(left > 0) || (resumes && rock_of(face).curve.on()))
           faces.push_back(face);
         else
-          add(face, resumes ? 1 - damage_of(state_.cohesive[first + face]) : 1, near);
+          add(face, left, near);
       });
     }
     std::copy_if(cracking.begin(), cracking.end(), std::back_inserter(faces),
@@ -197,6 +205,14 @@ private:
               << lane;
     return bits;
   }
+  // A bit for each face of the batch whose springs may use the rest of what `due_at` leaves to its tets.
+  unsigned pulled_faces(std::int64_t batch, double harmless) const {
+    const double most = (1 - due_at) * harmless / most_of_traction;
+    unsigned bits = 0;
+    for (int lane = 0; lane < lanes; ++lane)
+      bits |= static_cast<unsigned>(near_.pull2[batch * lanes + lane] > most * most) << lane;
+    return bits;
+  }
   void add(int face, double left, std::vector<SlotsOfFaces>& near) const {
     if (near.empty() || near.back().count == lanes)
       near.emplace_back();
@@ -208,6 +224,7 @@ private:
     last.left[last.count++] = left;
   }
 
+  // Mean of both tets.
   Mat3 stress_at(std::int64_t face) const {
     const FaceTets& tets = model_.mesh.face_tets[face];
     return 0.5 * (matrix(mesh_stress(model_, state_, tets.tet_a)) +
@@ -250,11 +267,21 @@ private:
       RockStrength rock = rock_of(place(batch, lane));
       raise(rock, unloaded_part * (1 - damage_of(face)));
       const FacePlane kind = plane_of_face(number);
-      const Vec3 normal = kind == FacePlane::own ? frame(batch, lane, step_.moved_for).normal : Vec3::Zero();
-      if (is_in_facet(place(batch, lane)) ? !worst_plane(in_facet_[place(batch, lane)], rock)
-                                          : strength_utilisation(stress, rock, normal, kind) < 1)
-        breaking_ +=
-            end_crack(at, lane, moment(batch, lane, stress), joint, state_.faces[batch], face).value_or(0);
+      const FaceFrame then = frame(batch, lane, step_.moved_for);
+      const int at_place = place(batch, lane);
+      const auto holds_again = [&] {
+        if (is_in_facet(at_place))
+          return !worst_plane(in_facet_[at_place], rock);
+        const Mat3 borne =
+            kind == FacePlane::own
+                ? with_traction(stress, then.normal,
+                                mean_traction(at, lane, then, joint, state_.faces[batch], face))
+                : stress;
+        return strength_utilisation(borne, rock, then.normal, kind) < 1;
+      };
+      if (holds_again())
+        breaking_ += end_crack(at, lane, moment(batch, lane, stress, then), joint, state_.faces[batch], face)
+                         .value_or(0);
     } else if (step_.moved_for > 0) {
       const double taken =
           let_go(at, lane, moment(batch, lane, Mat3::Zero()), joint, state_.faces[batch], face);
@@ -271,19 +298,19 @@ private:
     const int face = place(batch, lane);
     if (is_in_facet(face))
       return look_at_facet(batch, lane);
-    const Mat3 stress = stress_at(number);
+    const FacePlane kind = plane_of_face(number);
+    const FaceFrame then = frame(batch, lane, step_.moved_for);
+    const Mat3 stress = stress_at(number), borne = borne_by(stress, kind, batch, lane, then);
     RockStrength rock = rock_left(number, face);
-    const double components[6] = {stress(0, 0), stress(1, 1), stress(2, 2),
-                                  stress(0, 1), stress(1, 2), stress(0, 2)};
+    const double components[6] = {borne(0, 0), borne(1, 1), borne(2, 2),
+                                  borne(0, 1), borne(1, 2), borne(0, 2)};
     if (joints_.own() && !rock.curve.on() && !(UtilisationBound(rock, 1).beyond(components) > 0))
       return; // the bounds of the chunk are those of its weakest faces
-    const FaceFrame then = frame(batch, lane, step_.moved_for);
     const FaceTets& tets = model_.mesh.face_tets[number];
-    const FacePlane kind = plane_of_face(number);
     const auto plane_at = [&] {
       if (kind != FacePlane::of_material)
-        return critical_plane(stress, rock, then.normal, kind);
-      auto found = critical_plane(stress, rock, then.normal, FacePlane::of_ragged_border);
+        return critical_plane(borne, rock, then.normal, kind);
+      auto found = critical_plane(borne, rock, then.normal, FacePlane::of_ragged_border);
       if (found && std::abs(found->normal.dot(then.normal)) < least_cosine &&
           !watch_.is_nearest_of_a_tet(model_, state_, tets, then.normal, found->normal))
         found.reset();
@@ -292,8 +319,12 @@ private:
     const auto plane = at_rate(number, face, rock, plane_at);
     if (!plane)
       return;
-    const bool was_beyond = strength_utilisation(stress - rise(tets), rock, then.normal, kind) >= 1;
-    begin(batch, lane, moment(batch, lane, stress, then), *plane, was_beyond);
+    const FaceFrame before = frame(batch, lane, step_.moved_for + step_.length);
+    const bool was_beyond = strength_utilisation(borne_by(stress - rise(tets), kind, batch, lane, before),
+                                                 rock, before.normal, kind) >= 1;
+    FaceMoment at = moment(batch, lane, stress, then);
+    at.borne = borne;
+    begin(batch, lane, at, *plane, was_beyond);
   }
 
   // The plane that fails, with the strength at the rate of strain; plane_at() follows `rock`.
@@ -426,6 +457,15 @@ private:
       raise(rock, 1 - damage_of(state_.cohesive[number]));
     return rock;
   }
+  // Pa: a joint has a plane of its own, on which it bears what its springs add too.
+  Mat3 borne_by(const Mat3& stress, FacePlane kind, std::int64_t batch, int lane, const FaceFrame& f) const {
+    if (kind != FacePlane::own)
+      return stress;
+    const Joint none;
+    const Vec3 pull = mean_traction(model_.mesh.faces[batch], lane, f, none, state_.faces[batch],
+                                    state_.cohesive[batch * lanes + lane]);
+    return with_traction(stress, f.normal, stress * f.normal + pull);
+  }
   RockStrength rock_of(int face) const {
     return rocks_.of(joints_.law(face), joints_.tensile_strength(face), joints_.cohesion(face));
   }
@@ -448,7 +488,7 @@ private:
 
   void begin(std::int64_t batch, int lane, FaceMoment at, const CriticalPlane& plane, bool was_beyond) {
     const std::int64_t number = batch * lanes + lane;
-    const Vec3 change = plane.traction - at.stress * plane.normal;
+    const Vec3 change = plane.traction - at.borne * plane.normal;
     if (!was_beyond && change.norm() > 1e-9 * plane.traction.norm()) {
       const Elastic& m = body_.material;
       const Mat3 relieved = relief(change, plane.normal, m.lame_lambda(), m.shear_modulus());
@@ -484,6 +524,7 @@ private:
   const Body& body_;
   OwnRocks rocks_;
   FaceJoints joints_;
+  bool has_joints_; // some faces may have a plane of their own
   Joint room_;
   std::vector<InFacet> in_facet_; // per face; empty: there are no facets
   BegunCracks begun_;

@@ -1,5 +1,6 @@
 // Begins and ends cracks in cohesive bodies. Freed faces that reach their strength crack on the plane that fails
-// (fracture/critical_plane.hpp, bond/cohesive_faces.hpp). Cracked faces that unload with little damage become whole
+// (fracture/critical_plane.hpp, bond/cohesive_faces.hpp). A face bears the mean stress of both tets; a joint, which has a plane of its
+// own, bears on it the traction of its penalty too (with_traction). Cracked faces that unload with little damage become whole
 // again. This is done in every step, before its forces, from the stress of the step before (the mean of both tets) and
 // the relative displacements of that step. With the present ones, stress and displacement would belong to two moments,
 // and the change of energy would be wrong.

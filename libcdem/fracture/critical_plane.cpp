@@ -171,6 +171,11 @@ std::optional<CriticalPlane> critical_plane(const Mat3& stress, const RockStreng
   return plane;
 }
 
+Mat3 with_traction(const Mat3& stress, const Vec3& n, const Vec3& traction) {
+  const Vec3 change = traction - stress * n, half = change - 0.5 * change.dot(n) * n;
+  return stress + half * n.transpose() + n * half.transpose();
+}
+
 Mat3 relief(const Vec3& change, const Vec3& m, double lambda, double g) {
   const double normal = change.dot(m);
   const Vec3 w = (change - normal * m) / g + normal / (lambda + 2 * g) * m; // of the opposite sign

@@ -117,6 +117,9 @@ inline constexpr double least_cosine = 0.7, least_cosine_of_ragged_border = 0.1;
 std::optional<CriticalPlane> critical_plane(const geom::Mat3& stress, const RockStrength&,
                                             const geom::Vec3& face, FacePlane = FacePlane::of_material);
 
+// The nearest stress with this traction on the plane with the normal n.
+geom::Mat3 with_traction(const geom::Mat3& stress, const geom::Vec3& n, const geom::Vec3& traction);
+
 // Stress by which an opening and a slip on the plane with the normal m relieve an elastic material (lambda, g: Lame's, Pa)
 // when they change the traction on it by `change`: to be added. It takes energy as long as no part of the traction
 // grows.

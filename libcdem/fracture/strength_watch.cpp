@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -99,6 +100,10 @@ bool may_use(const std::vector<UtilisationBound>& bounds, const geom::Mat3& s) {
 
 } // namespace
 
+void NearStrength::forget_pulls(const Model& model) {
+  pull2.assign(model.mesh.faces.size() * lanes, std::numeric_limits<double>::infinity());
+}
+
 StrengthWatch StrengthWatch::of(const Model& model) {
   if (!has_cohesive_bodies(model))
     return {};
@@ -152,6 +157,7 @@ StrengthWatch::StrengthWatch(const Model& model) {
         half = std::min(half, stars_freed_at * star_blocks.shape[star]);
       }
     bounds_[c] = {rocks.bounds(1), rocks.bounds(due), rocks.bounds(half)};
+    bounds_[c].harmless = std::sqrt(harmless_norm2(bounds_[c].whole));
   }
   freed(model);
 }
@@ -283,8 +289,11 @@ public:
     return model_.mesh.first_tet + watch_.neighbours_[4 * (tet - model_.mesh.first_tet) + face] / 4;
   }
 
-  // The larger utilisation of the mean stress of both tets, now and ahead (s).
-  double utilisation(const State& state, std::int64_t tet, int face, double ahead) const {
+  // The larger utilisation of the mean stress of both tets, now and ahead (s), with what the springs of the face add to its
+  // traction, Pa, and will have added by then.
+  double utilisation(const State& state, std::int64_t tet, int face, double ahead,
+                     const geom::Vec3& pull = geom::Vec3::Zero(),
+                     const geom::Vec3& pull_rises = geom::Vec3::Zero()) const {
     const MeshData& mesh = model_.mesh;
     const std::int64_t other = beyond(tet, face), at = 4 * (tet - mesh.first_tet) + face;
     const RockStrength& rock = watch_.own_.empty() ? of_body_ : watch_.own_[static_cast<std::size_t>(at)];
@@ -295,8 +304,34 @@ public:
     const geom::Vec3 normal = (place(1) - place(0)).cross(place(2) - place(0)).normalized();
     const geom::Mat3 now = 0.5 * (stress_of(state, tet) + stress_of(state, other));
     const geom::Mat3 rise = ahead * 0.5 * (rate_of(state, tet) + rate_of(state, other));
-    return std::max(strength_utilisation(now, rock, normal, kind),
-                    strength_utilisation(now + rise, rock, normal, kind));
+    const auto use = [&](const geom::Mat3& stress, const geom::Vec3& added) {
+      return strength_utilisation(with_traction(stress, normal, stress * normal + added), rock, normal, kind);
+    };
+    return std::max(use(now, pull), use(now + rise, pull + pull_rises));
+  }
+  // Of a joint that is freed at some of its corners only. Its springs pull before the stress of its tets rises: it counts as due
+  // where it cracks, and where they pull enough.
+  double half_freed(const State& state, std::int64_t batch, int lane, double ahead, double harmless) const {
+    const MeshData& mesh = model_.mesh;
+    if (!holds(state.faces[batch].stage[lane]))
+      return 1;
+    const FaceNodes nodes = face_nodes(mesh, chunk_, batch, lane);
+    const double k = mesh.faces[batch].kn[lane] / 3,
+                 area = mesh.faces[batch].area[lane]; // a third of the face
+    geom::Vec3 pull = geom::Vec3::Zero(), rises = geom::Vec3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const int a = nodes.a[i], b = nodes.b[i];
+      pull += k * (vec(state.displacement[b]) - vec(state.displacement[a]));
+      rises += ahead * k * (vec(state.velocity[b]) - vec(state.velocity[a]));
+    }
+    if (!(most_of_traction * pull.norm() > (1 - due_at) * harmless * area))
+      return 0;
+    const FaceTets& tets = mesh.face_tets[batch * lanes + lane];
+    for (int face = 0; face < 4; ++face)
+      if (const int side = watch_.neighbours_[4 * (tets.tet_a - mesh.first_tet) + face];
+          side >= 0 && side / 4 == tets.tet_b - mesh.first_tet)
+        return utilisation(state, tets.tet_a, face, ahead, pull / area, rises / area);
+    return 0;
   }
   geom::Mat3 stress_of(const State& state, std::int64_t tet) const {
     return matrix(mesh_stress(model_, state, static_cast<int>(tet)));
@@ -326,10 +361,16 @@ void StrengthWatch::freed(const Model& model) {
   open_.assign(mesh.batches.size(), 0);
   held_.assign(mesh.chunks.size(), 0);
   slots_.assign(mesh.faces.size(), {});
-  each_face(mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
+  half_freed_.assign(mesh.faces.size(), 0);
+  each_face(mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
     const FaceTets& tets = mesh.face_tets[batch * lanes + lane];
     slots_[batch].a[lane] = mesh.tet_slot[tets.tet_a - mesh.first_tet];
     slots_[batch].b[lane] = mesh.tet_slot[tets.tet_b - mesh.first_tet];
+    const geom::Triangle nodes = face_nodes(mesh, chunk, batch, lane).a;
+    if (plane_between(model, tets.tet_a, tets.tet_b) == FacePlane::own &&
+        std::any_of(nodes.begin(), nodes.end(),
+                    [&](int node) { return mesh.freed[node - mesh.first_node] == 0; }))
+      half_freed_[batch] |= static_cast<std::uint8_t>(1u << lane);
   });
   facets_.assign(mesh.chunks.size(), {});
   std::map<std::pair<int, int>, FacetFaces> facets; // of a chunk, by star blocks
@@ -365,6 +406,13 @@ void StrengthWatch::freed(const Model& model) {
     }
 }
 
+template <class Visit>
+void StrengthWatch::each_half_freed(const MeshChunk& chunk, const Visit& visit) const {
+  for (std::int64_t batch = chunk.face_batches.begin; batch < chunk.face_batches.end; ++batch)
+    for (unsigned bits = half_freed_[batch]; bits != 0; bits &= bits - 1)
+      visit(batch, __builtin_ctz(bits));
+}
+
 void StrengthWatch::look(const MeshChunk& chunk, std::int64_t index, const StressBatch* stress,
                          const StressBatch* before, NearStrength& near) const {
   constexpr double steps_ahead = 2; // the stress is that of a step ago, and the next look is a step away
@@ -378,6 +426,7 @@ void StrengthWatch::look(const Model& model, const State& state, Range chunks, i
                          NearStrength& near) const {
   // Tets of other ranks count as near: nobody has looked at them here.
   near.bits.assign(model.mesh.batches.size(), NearStrength::may_crack);
+  near.forget_pulls(model);
   for_chunks(chunks, threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
     if (looks_at(c))
@@ -407,6 +456,10 @@ std::vector<char> StrengthWatch::due(const Model& model, const State& state, con
             if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= due_at)
               due[c] = 1;
     }
+    each_half_freed(chunk, [&](std::int64_t batch, int lane) {
+      if (due[c] == 0 && faces.half_freed(state, batch, lane, ahead, harmless_stress(c)) >= due_at)
+        due[c] = 1;
+    });
   });
   std::vector<std::int64_t> of_body(model.bodies.size(), 0);
   for (std::size_t c = 0; c < due.size(); ++c)
@@ -446,6 +499,11 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
           if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= freed_at)
             add_face(c, t, face);
     }
+    each_half_freed(chunk, [&](std::int64_t batch, int lane) {
+      if (faces.half_freed(state, batch, lane, ahead, harmless_stress(c)) >= freed_at)
+        for (const int node : face_nodes(model.mesh, chunk, batch, lane).a)
+          found[c].push_back(node);
+    });
   });
   std::set<int> stars;
   for (const std::vector<int>& of : loaded)

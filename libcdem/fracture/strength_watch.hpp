@@ -7,7 +7,8 @@
 //   join    all tets around a node have been below `due_at` for a while, are below `freed_at` now, and no face there has ever
 //           cracked: its copies become one node again
 //   free    the utilisation of a face that is not freed yet is above `due_at`, now or in two steps at the present rate
-//           of strain; then all faces of its body above `freed_at` are freed together, since freeing is dear
+//           of strain; then all faces of its body above `freed_at` are freed together, since freeing is dear. A joint that is
+//           freed at some corners is judged with its springs, as one that may crack, or it would bear more than its strength
 #pragma once
 
 #include "libcdem/fracture/critical_plane.hpp"
@@ -25,15 +26,19 @@ inline constexpr double due_at = 0.9, freed_at = 0.5;
 // corners use (h from a half to five times d). These are the parts for d = h; others have d/h of them, with the least extent of
 // a block for d and the largest for h.
 inline constexpr double stars_due_at = 0.25, stars_freed_at = 0.125;
+// The springs of a face change the stress that it bears by no more than this times the traction that they add, as norms.
+inline constexpr double most_of_traction = 1.4142136 * (1 + 1e-9);
 
 // What is known of the tets, eight by eight. Kept between steps; it follows from the State and is found again where it is
 // not known.
 struct NearStrength {
   static constexpr std::uint8_t may_crack = 1, may_be_due = 2;
   std::vector<std::uint8_t> bits; // per batch of tets
+  std::vector<double> pull2;      // Pa2, per face, written by cohesive_face_forces; infinite: unknown
   bool crack_known = false, due_known = false;
 
   void forget() { crack_known = due_known = false; }
+  void forget_pulls(const Model&);
 };
 
 // Where the stresses of the two tets at eight faces stand, batch * lanes + lane; 0 beside an empty lane.
@@ -71,6 +76,10 @@ public:
   const std::vector<UtilisationBound>& strength_bounds(std::int64_t chunk) const {
     return bounds_[static_cast<std::size_t>(chunk)].whole;
   }
+  // Pa: no stress of a smaller norm is beyond them.
+  double harmless_stress(std::int64_t chunk) const {
+    return bounds_[static_cast<std::size_t>(chunk)].harmless;
+  }
   const SlotsOfTets& slots_at(std::int64_t face_batch) const {
     return slots_[static_cast<std::size_t>(face_batch)];
   }
@@ -94,12 +103,15 @@ private:
   explicit StrengthWatch(const Model&);
   struct Bounds {
     std::vector<UtilisationBound> whole, at_strength, at_half;
+    double harmless = 0; // Pa, by `whole`
   };
   class ChunkFaces;
   int star_of(const Model& model, std::int64_t tet) const {
     return star_.empty() ? -1 : star_[static_cast<std::size_t>(tet - model.mesh.first_tet)];
   }
   void find_planes(const Model&);
+  template <class Visit> // (batch, lane)
+  void each_half_freed(const MeshChunk&, const Visit&) const;
 
   std::vector<int> neighbours_;   // per tet of the mesh and face of it: 4 tet + face on the other side, or -1
   std::vector<FacePlane> plane_;  // of the same; empty: all are of the material
@@ -107,10 +119,11 @@ private:
   std::vector<Bounds> bounds_;    // of the faces of each chunk; none: it is of no cohesive body
   std::vector<int> star_; // per tet of the mesh: its block without zones, or -1; empty: there are none
   std::vector<std::vector<FacetFaces>> facets_; // per chunk
-  std::vector<char> open_star_;    // per such block, 1: some face of it may crack and is not freed
-  std::vector<char> open_;         // per batch of tets, 1: some face may crack and is not freed
-  std::vector<char> held_;         // per chunk, likewise
-  std::vector<SlotsOfTets> slots_; // per batch of faces
+  std::vector<char> open_star_;          // per such block, 1: some face of it may crack and is not freed
+  std::vector<char> open_;               // per batch of tets, 1: some face may crack and is not freed
+  std::vector<char> held_;               // per chunk, likewise
+  std::vector<SlotsOfTets> slots_;       // per batch of faces
+  std::vector<std::uint8_t> half_freed_; // likewise, a bit for each joint freed at some of its corners only
 };
 
 } // namespace cdem

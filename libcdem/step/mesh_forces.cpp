@@ -199,7 +199,7 @@ const Node* mesh_forces(const Model& model, State& state, Workspace& work, std::
     if (body.bonding.is_cohesive()) {
       cohesive_face_forces(faces, chunk.faces, motion, law, FaceJoints(model, state, chunk), breaking,
                            face_state, state.cohesive.data() + chunk.face_batches.begin * lanes, at.force,
-                           sums);
+                           sums, work.near.pull2.data() + chunk.face_batches.begin * lanes);
       add_crack_pressures(model, state, chunk, work.resolved.cracks, motion, at.force, sums);
     } else
       face_bond_forces(faces, chunk.face_batches.size(), chunk.faces, motion, law, breaking, face_state,

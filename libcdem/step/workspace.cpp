@@ -32,6 +32,7 @@ Workspace::Workspace(const Model& model, const State& state, const Conditions& c
     partial.resize(static_cast<std::size_t>(model.mesh.chunks.back().partial.end));
     face_sums.resize(model.mesh.chunks.size());
     near.bits.assign(model.mesh.batches.size(), NearStrength::may_crack);
+    near.forget_pulls(model);
     for (const MeshChunk& chunk : model.mesh.chunks)
       has_shared_nodes = has_shared_nodes || (!chunk.stars && chunk.inner_end < chunk.nodes.end);
   }

@@ -176,3 +176,61 @@ TEST_CASE("begin cracks: a notch in a body under tension is free of traction", "
   s.relax(options);
   CHECK(std::abs(s.reaction(cdem::Selection::side("x-")).x()) < 0.01 * 1e6 * 0.01);
 }
+
+// Two arms with a joint between them are led apart across it (double cantilever beam), or bent together beside a wall (end-loaded
+// split): the crack grows by opening alone or by slip alone, from one cell of the mesh to the next.
+TEST_CASE("begin cracks: a crack that grows along a joint takes its fracture energy", "[cohesive][energy]") {
+  const bool opens = GENERATE(true, false);
+  const double height = 0.12, width = 0.02, cell = 0.02;
+  const double length = opens ? 0.3 : 0.6, notch = opens ? 0.1 : 0.36;
+  geom::TetMesh mesh = geom::box_mesh({length, height, width}, {static_cast<int>(length / cell + 0.5), 6, 1});
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    double y = 0;
+    for (const int node : mesh.tets[t])
+      y += mesh.nodes[node].y() / 4;
+    mesh.region[t] = y > height / 2;
+  }
+  cdem::Bonding bonding = cohesive();
+  bonding.everywhere = false;
+  bonding.between_regions = true;
+  cdem::BodySpec body = meshed("arms", mesh, bonding, concrete(), concrete_joint(cdem::Softening::linear, 0));
+  body.material.poissons_ratio = 0;
+  body.joint.fracture_energy_2 = energy_1;
+  cdem::ModelSpec spec;
+  spec.bodies = {body};
+  cdem::Simulation s(spec, 1, nullptr);
+  const auto within = [](const Vec3& min, const Vec3& max) { return cdem::Selection::in_box({min, max}); };
+  s.break_bonds(within({-1, height / 2 - 1e-6, -1}, {notch + 1e-6, height / 2 + 1e-6, 1}), true);
+  s.fix(fixed(cdem::Selection::side("z-"), "z"));
+  const cdem::Selection upper = within({-1e-6, height - 1e-6, -1}, {1e-6, 1, 1}),
+                        lower = within({-1e-6, -1e-6, -1}, {1e-6, 1e-6, 1}),
+                        led = opens ? upper : cdem::Selection::side("x-");
+  if (opens) {
+    s.fix(fixed(lower, "xy"));
+    s.fix(fixed(upper, "x"));
+  } else {
+    s.fix(fixed(cdem::Selection::side("x+"), "xy"));
+  }
+  struct Grown {
+    double area = 0, taken = 0;
+  };
+  std::vector<Grown> grown; // each time that the crack is larger
+  for (int i = 0; i <= 40; ++i) {
+    cdem::Fix lead = fixed(led, "y");
+    lead.displacement = Vec3(0, opens ? 1e-4 + 1e-5 * i : 6e-4 + 5e-5 * i, 0);
+    s.release(led, {false, true, false});
+    s.fix(lead);
+    cdem::RelaxOptions options;
+    options.residual = 1e-3;
+    s.relax(options);
+    const cdem::Cracks cracks = s.cracks().all();
+    if (grown.empty() || cracks.broken() > grown.back().area)
+      grown.push_back({cracks.broken(), s.energy().breaking});
+  }
+  REQUIRE(grown.size() > 5);
+  const double area = grown.back().area - grown[1].area, taken = grown.back().taken - grown[1].taken;
+  INFO((opens ? "opens" : "slides") << ", cells " << area / (cell * width) << ", taken over G A "
+                                    << taken / (energy_1 * area));
+  CHECK(area > 2 * cell * width);
+  CHECK(taken == Approx(energy_1 * area).epsilon(0.1));
+}
