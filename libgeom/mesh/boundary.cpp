@@ -88,7 +88,10 @@ std::vector<int> face_neighbours(const std::vector<Tet>& tets, std::size_t node_
 }
 
 std::vector<OuterFace> outer_faces(const TetMesh& mesh) {
-  const std::vector<int> neighbours = face_neighbours(mesh.tets, mesh.nodes.size());
+  return outer_faces(mesh, face_neighbours(mesh.tets, mesh.nodes.size()));
+}
+
+std::vector<OuterFace> outer_faces(const TetMesh& mesh, const std::vector<int>& neighbours) {
   std::vector<OuterFace> out;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
     for (std::size_t f = 0; f < 4; ++f)
@@ -98,7 +101,10 @@ std::vector<OuterFace> outer_faces(const TetMesh& mesh) {
 }
 
 std::vector<InnerFace> inner_faces(const TetMesh& mesh) {
-  const std::vector<int> neighbours = face_neighbours(mesh.tets, mesh.nodes.size());
+  return inner_faces(mesh, face_neighbours(mesh.tets, mesh.nodes.size()));
+}
+
+std::vector<InnerFace> inner_faces(const TetMesh& mesh, const std::vector<int>& neighbours) {
   std::vector<InnerFace> out;
   out.reserve(2 * mesh.tets.size());
   for (std::size_t i = 0; i < neighbours.size(); ++i) {

@@ -20,6 +20,8 @@ struct OuterFace {
   int face = 0; // of the tet: nodes are its corners tet_faces[face]
 };
 std::vector<OuterFace> outer_faces(const TetMesh&); // by tet, then face
+std::vector<OuterFace> outer_faces(const TetMesh&,
+                                   const std::vector<int>& neighbours); // those of face_neighbours
 
 // A face between two tets, the lower one first.
 struct InnerFace {
@@ -30,6 +32,8 @@ struct InnerFace {
   std::array<std::array<int, 3>, 2> corners{};
 };
 std::vector<InnerFace> inner_faces(const TetMesh&); // by first tet, then its face
+std::vector<InnerFace> inner_faces(const TetMesh&,
+                                   const std::vector<int>& neighbours); // those of face_neighbours
 
 // Which outer faces. Indices into `faces`, ascending; empty when there are none.
 std::vector<int> faces_on_plane(const TetMesh&, const std::vector<OuterFace>& faces, const Plane&,

@@ -388,7 +388,8 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
   for (MeshSeed& seed : seeds) {
     const geom::TetMesh mesh = seed.ordered ? std::move(seed.mesh) : geom::ordered(seed.mesh);
     seed.mesh = {};
-    const std::vector<geom::InnerFace> inner = geom::inner_faces(mesh);
+    const std::vector<int> neighbours = geom::face_neighbours(mesh.tets, mesh.nodes.size());
+    const std::vector<geom::InnerFace> inner = geom::inner_faces(mesh, neighbours);
     const Body& body = model.bodies[seed.body];
     if (!seed.ordered)
       require_fracture_energy(mesh, inner, body);
@@ -430,7 +431,7 @@ void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
     for (const auto& [name, faces] : mesh.named)
       for (const int face : faces)
         model.mesh.named[{seed.body, name}].push_back(static_cast<int>(model.mesh.boundary.size()) + face);
-    add_boundary(model, geom::outer_faces(mesh), index);
+    add_boundary(model, geom::outer_faces(mesh, neighbours), index);
     Places places(model.node_position.size());
     add_chunks(model, bonded, inner_nodes, chunk_tets, index, places);
     add_plastic_laws(model, index, mesh.region);
