@@ -177,7 +177,8 @@ void Warnings::of_falling_forces() {
                    end, share));
 }
 
-// Between joined blocks without zones, which do not see bending by themselves. Strengths that follow the rate are not known here.
+// Between joined blocks without zones, by another way than the one that cracks them. Strengths that follow the rate are not known
+// here.
 void Warnings::of_bent_facets(bool in_real_time) {
   if (!may_have_facets(model_))
     return;
@@ -200,9 +201,7 @@ void Warnings::of_bent_facets(bool in_real_time) {
     tell(fmt::format("bonds = \"cohesive\" of body \"{}\": a joint between two blocks without zones is whole "
                      "and carries {:.3g} "
                      "times its strength at ({:.4g}, {:.4g}, {:.4g}) m, by the force and the moment that "
-                     "pass through it; the "
-                     "tetrahedra beside it do not see bending, so it would break far too late: give the body "
-                     "zone_size = {:.3g}",
+                     "pass through it: give the body zone_size = {:.3g}",
                      name, facet.utilisation, facet.worst.x(), facet.worst.y(), facet.worst.z(),
                      facet.least_extent / 4));
   }

@@ -80,14 +80,20 @@ void add_facets(const Model& model, const Block& block, Facets& facets_of) {
     facets_of.all.push_back(std::move(facet));
 }
 
+// Whether all its regions are stars: only then all forces at its facets are known.
+bool is_of_stars(const Model& model, const Block& block, const StarBlocks& stars) {
+  const auto at = stars.of_tet.begin() - model.mesh.first_tet;
+  return block.tet_end > block.tet_begin && block.tet_begin >= model.mesh.first_tet &&
+         std::all_of(at + block.tet_begin, at + block.tet_end, [](int star) { return star >= 0; });
+}
+
 Facets facets_of(const Model& model) {
   Facets facets{star_blocks(model), {}, {}};
   if (facets.stars.of_tet.empty())
     return facets;
   facets.neighbours = mesh_neighbours(model);
   for (const Block& block : model.blocks)
-    if (block.tet_end > block.tet_begin && block.tet_begin >= model.mesh.first_tet &&
-        facets.stars.of_tet[block.tet_begin - model.mesh.first_tet] >= 0)
+    if (is_of_stars(model, block, facets.stars))
       add_facets(model, block, facets);
   return facets;
 }

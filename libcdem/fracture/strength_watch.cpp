@@ -100,6 +100,27 @@ bool may_use(const std::vector<UtilisationBound>& bounds, const geom::Mat3& s) {
 
 } // namespace
 
+namespace {
+
+// A border of regions with an edge is none: no linear traction is in balance with its parts.
+bool is_plane(const Model& model, const MeshChunk& chunk, const FacetFaces& facet) {
+  constexpr double plane_cosine = 1 - 1e-6;
+  geom::Vec3 along = geom::Vec3::Zero();
+  double whole = 0;
+  for (std::size_t i = 0; i < facet.faces.size(); ++i) {
+    const int face = facet.faces[i];
+    const geom::Triangle nodes =
+        face_nodes(model.mesh, chunk, chunk.face_batches.begin + face / lanes, face % lanes).a;
+    const auto& x = model.node_position;
+    const geom::Vec3 area = (x[nodes[1]] - x[nodes[0]]).cross(x[nodes[2]] - x[nodes[0]]);
+    along += (facet.first_is_a[i] != 0 ? 1 : -1) * area;
+    whole += area.norm();
+  }
+  return along.norm() >= plane_cosine * whole;
+}
+
+} // namespace
+
 void NearStrength::forget_pulls(const Model& model) {
   pull2.assign(model.mesh.faces.size() * lanes, std::numeric_limits<double>::infinity());
 }
@@ -385,7 +406,8 @@ void StrengthWatch::freed(const Model& model) {
       of.first_is_a.push_back(a < b ? 1 : 0);
     }
     for (auto& [stars, of] : facets)
-      facets_[c].push_back(std::move(of));
+      if (is_plane(model, mesh.chunks[c], of))
+        facets_[c].push_back(std::move(of));
   }
   open_star_.assign(star_.empty() ? 0 : 1 + *std::max_element(star_.begin(), star_.end()), 0);
   // Those of the stars are known once all tets of their stars have been seen.

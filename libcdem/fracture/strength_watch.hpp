@@ -1,7 +1,7 @@
 // Which faces of cohesive bodies are near their strength. Every step, the stress that the elements have just got, still in
-// the cache, is compared with a bound on the utilisation, eight tets side by side. Only faces beside tets above that
-// bound are looked at one by one, and they are looked at in every step: when a face is freed or cracks follows from its
-// own stress alone, not from the number of the face or of the step.
+// the cache, is compared with a bound on the utilisation, eight tets side by side. Faces beside tets above that bound, and
+// joints whose springs pull, are looked at one by one in every step: when a face is freed or cracks follows from what it bears
+// alone, not from the number of the face or of the step. Facets of joined blocks without zones are looked at as wholes.
 //
 //   crack   the utilisation of a face is 1 (begin_cracks.hpp)
 //   join    all tets around a node have been below `due_at` for a while, are below `freed_at` now, and no face there has ever
@@ -34,7 +34,8 @@ inline constexpr double most_of_traction = 1.4142136 * (1 + 1e-9);
 struct NearStrength {
   static constexpr std::uint8_t may_crack = 1, may_be_due = 2;
   std::vector<std::uint8_t> bits; // per batch of tets
-  std::vector<double> pull2;      // Pa2, per face, written by cohesive_face_forces; infinite: unknown
+  std::vector<double>
+      pull2; // Pa2, per face, of the moment of its tets' stress, written by cohesive_face_forces; infinite: unknown
   bool crack_known = false, due_known = false;
 
   void forget() { crack_known = due_known = false; }

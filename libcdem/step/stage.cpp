@@ -249,6 +249,7 @@ void Stage::look_at_sliding() {
   if (!in_real_time || !context_.sliding ||
       std::none_of(blocks.begin(), blocks.end(), [](const Block& b) { return b.rigid < 0; }))
     return;
+  const double since = std::exchange(sliding_seen_, context_.state.time);
   const Range own = work.shared->shares().points();
   const std::vector<std::uint8_t>& modes = context_.state.bond_mode;
   const bool dry = ranks().any(std::any_of(modes.begin() + own.begin, modes.begin() + own.end,
@@ -258,9 +259,8 @@ void Stage::look_at_sliding() {
   see_whole();
   if (dry)
     shares_.gather(work.bond);
-  const double before = std::exchange(sliding_seen_, context_.state.time);
   context_.sliding->look(context_.model, context_.state, work.bond, work.contact.movers.broken,
-                         context_.state.time - before);
+                         context_.state.time - since);
 }
 
 // Contact is told of the bonds of a block when a face is handed over, or an interface left to contact, of it or of those that

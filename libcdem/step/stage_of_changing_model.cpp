@@ -121,6 +121,7 @@ void Stage::change_nodes(Freed freed) {
   const BondWork bond = work.bond; // what springs lose in the step to come begins with the one before
   preload_faces(model, state, net_forces(model, state, work, context_.threads), freed.anew);
   work.bond = bond;
+  work.near.forget_pulls(model); // those of the net forces are of another moment
   contacts_.start_anew(model, state, work.contact, true);
 }
 

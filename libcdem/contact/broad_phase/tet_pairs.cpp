@@ -18,8 +18,8 @@ namespace {
 
 using TetPair = std::pair<int, int>;
 
-// Skin of a tetrahedron, over the usual height of one at the surface of its block; the part of it after which its pairs are found anew
-// with those of others.
+// Skin of a tetrahedron, over the usual height of one at the surface of its block. When one has left its skin, the pairs of all that
+// have gone this part of theirs are found anew.
 constexpr double skin_ratio = 0.05, renewed_from = 0.4;
 // Rings of tetrahedra below the surface for which pairs are found too: cracks will open some of them.
 constexpr int rings_below = 2;
@@ -223,18 +223,19 @@ void list_tets(const Model& model, const State& state, ContactWork& work) {
   set_nodes(model, to);
   set_places(model, state, to);
   to.paths.assign(to.tets.size());
-  to.path_then.assign(to.tets.size(), 0.0);
+  // One that was not listed before counts as gone, but not as fast.
+  to.paths.path.assign(to.tets.size(), 2 * to.skin);
+  to.path_then = to.paths.path;
   to.limit.assign(to.tets.size(), -1.0);
   to.boxes.resize(to.tets.size());
   to.way.assign(model.blocks.size(), geom::Vec3::Zero());
   to.joint = joints_of(model, state, work);
   std::vector<char> changed(to.tets.size(), 0);
-  std::vector<int> now; // of those listed before
   if (const TetContacts* const before = work.tet_contacts.get(); before && before->skin == to.skin) {
     to.way = before->way;
     to.steps = before->steps;
     to.steps_then = before->steps_then;
-    now.assign(before->tets.size(), -1);
+    std::vector<int> now(before->tets.size(), -1); // of those listed before
     for (std::size_t t = 0; t < to.tets.size(); ++t) {
       const int was = before->number[to.tets[t].tet];
       if (was < 0)
@@ -254,15 +255,6 @@ void list_tets(const Model& model, const State& state, ContactWork& work) {
       }
     ask_again(changed, to);
   }
-  std::vector<char> is_new(to.tets.size(), 1);
-  for (const int t : now)
-    if (t >= 0)
-      is_new[t] = 0;
-  for (std::size_t t = 0; t < is_new.size(); ++t)
-    if (is_new[t]) {
-      to.paths.path[t] = 2 * to.skin;
-      to.path_then[t] = 2 * to.skin;
-    }
   work.tet_contacts = std::move(listed);
 }
 

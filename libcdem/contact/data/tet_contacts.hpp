@@ -34,9 +34,9 @@ struct TetContacts {
   std::array<std::vector<int>, 4> corner; // nodes of the tetrahedra
   std::vector<int> tets_begin;            // by block that touches itself, into tets
   TetPaths paths;                         // of the tetrahedra
-  std::vector<geom::Box>
-      boxes; // m, of each, within its skin of where its pairs were found; past the way of the frame
-  std::vector<geom::Vec3> way; // m, by block of the model: of the frame that paths are measured in
+  // m, that each stays in until its path exceeds the skin, in the frame of its block.
+  std::vector<geom::Box> boxes;
+  std::vector<geom::Vec3> way; // m, of that frame, by block of the model
   std::vector<int> joint;      // (n_nodes), the smallest node of the joint
   double skin = 0;             // m, how far any may go before its pairs are found anew
 
