@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/cohesive_faces.hpp"
 #include "libcdem/element/small_strain.hpp"
+#include "libcdem/fracture/linear_traction.hpp"
 #include "libcdem/fracture/own_rocks.hpp"
 #include "libcdem/parallel/simd.hpp"
 #include "libcdem/state/places.hpp"
@@ -67,43 +68,6 @@ CDEM_INLINE void beyond_kernel(const SlotsOfFaces* eights, std::size_t count, co
 Mat3 stress_with(const Vec3& t, const Vec3& n) {
   return t * n.transpose() + n * t.transpose() - t.dot(n) * n * n.transpose();
 }
-
-// The linear traction with the resultant and the moment of those at given points of one plane. As in facet_traction.hpp.
-class LinearTraction {
-public:
-  // x: m, from a place near all of them.
-  void add(double area, const Vec3& x, const Vec3& traction, const Vec3& normal) {
-    area_ += area;
-    first_ += area * x;
-    second_ += area * x * x.transpose();
-    force_ += area * traction;
-    arms_ += area * traction * x.transpose();
-    along_ += area * normal;
-  }
-  void fit() {
-    centroid_ = first_ / area_;
-    mean_ = force_ / area_;
-    normal_ = along_.normalized();
-    const Mat3 second = second_ - area_ * centroid_ * centroid_.transpose(),
-               arms = arms_ - force_ * centroid_.transpose();
-    const double polar = second.trace();
-    const Vec3 moment(arms(2, 1) - arms(1, 2), arms(0, 2) - arms(2, 0), arms(1, 0) - arms(0, 1));
-    slope_ = (second + polar * normal_ * normal_.transpose()).inverse() * (arms.transpose() * normal_);
-    slope_ -= slope_.dot(normal_) * normal_;
-    turn_ = normal_.dot(moment) / polar * normal_;
-  }
-  Vec3 at(const Vec3& x) const {
-    const Vec3 r = x - centroid_;
-    return mean_ + slope_.dot(r) * normal_ + turn_.cross(r);
-  }
-
-private:
-  double area_ = 0;
-  Vec3 first_ = Vec3::Zero(), force_ = Vec3::Zero(), along_ = Vec3::Zero();
-  Mat3 second_ = Mat3::Zero(), arms_ = Mat3::Zero();
-  Vec3 centroid_ = Vec3::Zero(), normal_ = Vec3::Zero(), mean_ = Vec3::Zero(), slope_ = Vec3::Zero(),
-       turn_ = Vec3::Zero();
-};
 
 class ChunkCracks {
 public:
@@ -450,7 +414,7 @@ private:
     begin(batch, lane, at, *plane, true);
   }
 
-  // Of a face that holds: a crack that did not continue took the rest, at most the part that may_end allows.
+  // The strength of a face that holds: a crack that did not continue took the rest, at most the part that may_end allows.
   RockStrength rock_left(std::int64_t number, int face) const {
     RockStrength rock = rock_of(face);
     if (state_.faces[number / lanes].stage[number % lanes] == FaceStage::resumed)

@@ -330,7 +330,7 @@ public:
     };
     return std::max(use(now, pull), use(now + rise, pull + pull_rises));
   }
-  // Of a joint that is freed at some of its corners only. Its springs pull before the stress of its tets rises: it counts as due
+  // The utilisation of a joint that is freed at some of its corners only. Its springs pull before its tets do: it counts as due
   // where it cracks, and where they pull enough.
   double half_freed(const State& state, std::int64_t batch, int lane, double ahead, double harmless) const {
     const MeshData& mesh = model_.mesh;

@@ -62,7 +62,7 @@ public:
 
   // Some face in the chunk may crack. before: the stress of its batches a step ago; null: unknown.
   bool looks_at(std::int64_t chunk) const { return !bounds_.empty() && !bounds_[chunk].at_strength.empty(); }
-  // Of a chunk, by pairs of joined blocks without zones (star_blocks.hpp): the freed faces that are judged on their own plane.
+  // The freed faces of a chunk that are judged on their own plane, by pairs of joined blocks without zones (star_blocks.hpp).
   const std::vector<FacetFaces>& facets(std::int64_t chunk) const {
     return facets_[static_cast<std::size_t>(chunk)];
   }

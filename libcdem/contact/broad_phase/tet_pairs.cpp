@@ -133,7 +133,7 @@ void ask_again(const std::vector<char>& changed, TetContacts& of) {
   }
 }
 
-// Of these pairs, those that no plane of one of them parts by more than their skins, in the same order.
+// Those of these pairs that no plane of one of them parts by more than their skins, in the same order.
 TetContacts near_among(const std::vector<TetPair>& pairs, const TetContacts& of) {
   constexpr std::size_t at_a_time = 64 * lanes;
   TetContacts found; // its pairs alone
