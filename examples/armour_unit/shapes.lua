@@ -1,0 +1,64 @@
+-- Which change of the shape, the hold or the load lets the set-ups of Feng 2014 section 3 break at the waist or the top? Coarse
+-- meshes, hold.
+--
+--   ./cdem run examples/armour_unit/shapes.lua [--set cases=2,4,6] [--set fineness=6]
+local cdem = require "cdem"
+local unit = require "unit"
+
+local cases = cdem.parameter{ name = "cases", default = {2, 4, 6}, range = {1, 6}, doc = "set-ups" }
+local fineness = cdem.parameter{ name = "fineness", default = 5.0, range = {3, 60}, doc = "height over edge of the tets" }
+local toughness = cdem.parameter{ name = "fracture_energy", default = 100.0, range = {1, 1e6}, unit = "J/m2" }
+local only = cdem.parameter{ name = "only", default = "all", doc = "one of the changes" }
+
+-- hold: share of the extent from the held side that is fixed, the side alone at 0; load: outer faces that take the flow.
+local changes = {
+  { name = "unchanged" },
+  { name = "thin_core", shape = { core = 0.28 } },
+  { name = "narrow", shape = { width = 0.28 } },
+  { name = "thin_tips", shape = { taper = 0.55 } },
+  { name = "long_nose", shape = { length = 1.2 } },
+  { name = "held_to_a_quarter", hold = 0.25 },
+  { name = "held_to_a_third", hold = 0.34 },
+  { name = "held_to_a_quarter_thin_core", shape = { core = 0.28 }, hold = 0.25 },
+  { name = "load_on_the_side", load = "side" },
+}
+local concrete = cdem.elastic{ youngs_modulus = unit.youngs_modulus, poissons_ratio = unit.poissons_ratio,
+                               density = unit.density }
+local joint = cdem.mohr_coulomb{ cohesion = unit.cohesion, friction_angle = unit.friction_angle,
+                                 tensile_strength = unit.tensile_strength, softening = "linear",
+                                 fracture_energy_1 = toughness, fracture_energy_2 = 10 * toughness }
+local axis_of = { x = 1, y = 2, z = 3 }
+local figures = {}
+for _, change in ipairs(changes) do
+  if only == "all" or only == change.name then
+    local settings = { mass = 5000, density = unit.density, shape = "stocky" }
+    for key, value in pairs(change.shape or {}) do settings[key] = value end
+    local solid = cdem.accropode(settings)
+    local mesh = solid:mesh{ size = solid.height / fineness }
+    local box = mesh:box()
+    for _, number in ipairs(cases) do
+      local case = unit.cases[number]
+      local model = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bonds = "cohesive",
+                                             name = "unit" } } }
+      local held = case.held
+      if change.hold then
+        local axis, far = axis_of[case.held:sub(1, 1)], {}
+        for i = 1, 3 do far[i] = box.max[i] end
+        far[axis] = box.min[axis] + change.hold * (box.max[axis] - box.min[axis])
+        held = cdem.select.box{ min = box.min, max = far }
+      end
+      model:fix{ on = held }
+      local side = case.flow[1] > 0 and "x-" or case.flow[2] > 0 and "y-" or "z-"
+      local broken = model:critical_flow{ direction = case.flow, mode = "hold", held = case.held,
+                                          on = change.load == "side" and side or "all" }
+      local key = string.format("%s_%d_", change.name, number)
+      figures[#figures + 1] = { name = key .. "m_per_s", value = broken.velocity, unit = "m/s", reference = case.velocity,
+                                kind = "paper", source = "Feng 2014 table 2; ended by " .. broken.reason }
+      figures[#figures + 1] = { name = key .. "place", value = unit.place(broken, case), reference = case.place, kind = "paper",
+                                source = "Feng 2014 section 3.3, in words" }
+      figures[#figures + 1] = { name = key .. "height_fraction", value = broken.height_fraction }
+    end
+  end
+end
+figures[#figures + 1] = { name = "wall_time_s", value = cdem.elapsed(), unit = "s" }
+cdem.report(figures)
