@@ -9,6 +9,7 @@ local cdem = require "cdem"
 
 local count = cdem.parameter{ name = "units", default = 8, range = {8, 200}, doc = "how many" }
 local columns = cdem.parameter{ name = "columns", default = 4, range = {2, 20}, doc = "units in a row" }
+local seed = cdem.parameter{ name = "seed", default = 1, range = {0, 1e6}, doc = "of the attitudes: another layer" }
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {100, 1e5}, unit = "kg", doc = "of a unit" }
 local first = cdem.parameter{ name = "first_ns", default = 2.5, range = {0.1, 10}, doc = "stability number of the first group" }
 local step = cdem.parameter{ name = "ns_step", default = 0.5, range = {0.05, 5}, doc = "by which it grows" }
@@ -20,34 +21,46 @@ local period = cdem.parameter{ name = "period", default = 8.0, range = {2, 30}, 
 local rest = cdem.parameter{ name = "rest", default = 3.0, range = {0, 1000}, unit = "s", doc = "still water after a group" }
 local drag = cdem.parameter{ name = "drag", default = 1.0, range = {0, 10}, doc = "C_D" }
 local added = cdem.parameter{ name = "added_mass", default = 0.5, range = {0, 5}, doc = "C_A" }
+local roughness = cdem.parameter{ name = "friction_angle", default = 35.0, range = {0, 80}, unit = "deg",
+                                  doc = "of units on each other, on the slope and on the walls" }
 local friction = cdem.parameter{ name = "bed_friction", default = 0.05, range = {0, 1}, doc = "f of the slope" }
+local modulus = cdem.parameter{ name = "youngs_modulus", default = 30e9, range = {1e8, 1e12}, unit = "Pa",
+                                doc = "of the concrete; it sets the stiffness of contacts and the step of rigid units too" }
 local deformable = cdem.parameter{ name = "deformable", default = false, doc = "units deform; false: rigid" }
 local breakable = cdem.parameter{ name = "breakable", default = false, doc = "deformable, with the two below" }
+local held = cdem.parameter{ name = "rigid_for", default = 0.0, range = {0, 1000}, unit = "s",
+                             doc = "breakable units are rigid at first, until water comes; for 5 t, Froude scales it" }
 local tension = cdem.parameter{ name = "tensile_strength", default = 3e6, range = {1e3, 1e9}, unit = "Pa" }
-local toughness = cdem.parameter{ name = "fracture_energy", default = 100.0, range = {1, 1e6}, unit = "J/m2" }
+local toughness = cdem.parameter{ name = "fracture_energy", default = 100.0, range = {0, 1e6}, unit = "J/m2",
+                                  doc = "G_I; 0: brittle" }
 local fineness = cdem.parameter{ name = "fineness", default = 3.0, range = {2, 20}, doc = "height over edge of the tetrahedra" }
 local ends_at = cdem.parameter{ name = "ends_at", default = 2.0, range = {0.1, 100}, doc = "N_od at which it ends" }
 local longest = cdem.parameter{ name = "time", default = 1e6, range = {0.01, 1e6}, unit = "s", doc = "of waves, at most" }
 local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them" }
+local film = cdem.parameter{ name = "film", default = 0.0, range = {0, 10}, unit = "s",
+                             doc = "time between frames of a film; 0: none" }
 local g, sea, gradient = 9.81, 1025, 1 / 1.5
 
-local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2400, stiffness_damping = 1e-5 }
+local concrete = cdem.elastic{ youngs_modulus = modulus, poissons_ratio = 0.2, density = 2400, stiffness_damping = 1e-5 }
 local solid = cdem.accropode{ mass = mass, density = concrete.density, width = 0.40, corner = 0 }
 local unit, H = solid:mesh{ size = solid.height / fineness }, solid.height
 local Dn = (mass / concrete.density) ^ (1 / 3)
 local scale = (mass / 5000) ^ (1 / 6) -- Froude's law: times go with the root of lengths
-period, rest = period * scale, rest * scale
+period, rest, held = period * scale, rest * scale, held * scale
 local length, width = (0.55 * math.ceil(count / columns) + 2.5) * H, (1.4 * columns + 2) * H
 local ground = cdem.slope{ gradient = gradient, length = length, width = width }:mesh{ size = 2 * H }
-local pile = cdem.place{ unit = unit, count = count, columns = columns, onto = ground, friction_angle = 12, walls = true }
+local pile = cdem.place{ unit = unit, count = count, columns = columns, onto = ground, seed = seed, friction_angle = 12,
+                         walls = true }
+local tough = toughness > 0
 local joint = breakable and cdem.mohr_coulomb{ cohesion = 2 * tension, friction_angle = 35, tensile_strength = tension,
-                                               softening = "linear", fracture_energy_1 = toughness,
-                                               fracture_energy_2 = 10 * toughness } or nil
+                                               softening = tough and "linear" or "none",
+                                               fracture_energy_1 = tough and toughness or nil,
+                                               fracture_energy_2 = tough and 10 * toughness or nil } or nil
 local model = cdem.model{
   bodies = { { name = "units", shape = pile, material = concrete, joint = joint, bonds = joint and "cohesive" or nil },
              { name = "slope", shape = ground, material = concrete, element = "rigid" },
              { name = "walls", shape = pile:walls{ onto = ground }, material = concrete, element = "rigid" } },
-  contacts = { default = cdem.coulomb{ friction_angle = 35 } } }
+  contacts = { default = cdem.coulomb{ friction_angle = roughness } } }
 model:fix{ on = {"slope", "walls"} }
 local lowest = model:lowest_units{ body = "units", count = columns }
 model:fix{ on = cdem.select.units{ body = "units", numbers = lowest } }
@@ -58,7 +71,7 @@ local level = 0.5 * (box.min[3] + box.max[3])
 model:gravity{ vector = {0, 0, -g} }
 model:flow{ on = "units", water = cdem.water.uniform{ velocity = {0, 0, 0}, level = level }, drag = drag, added_mass = added }
 local settled = model:settle{ kinetic_energy_ratio = 1e-4, friction_angle = 15 }
-if not (deformable or breakable) then model:make_rigid{ on = "units" } end
+if not (deformable or breakable) or held > 0 then model:make_rigid{ on = "units" } end
 model:reset_displacement()
 
 -- The slope goes on below the layer to deep water; the waves enter there.
@@ -83,7 +96,13 @@ local water = cdem.water.slope{ bed = bed, level = level, waves = entering, fric
                                 duration = start + groups * group_time + 1 }
 model:clear_loads()
 model:gravity{ vector = {0, 0, -g} }
-model:flow{ on = "units", water = water, drag = drag, added_mass = added }
+-- Forces on the row that is held move nothing.
+local is_held, free = {}, {}
+for _, unit_number in ipairs(lowest) do is_held[unit_number] = true end
+for i = 1, count do
+  if not is_held[i] then free[#free + 1] = i end
+end
+model:flow{ on = cdem.select.units{ body = "units", numbers = free }, water = water, drag = drag, added_mass = added }
 
 local function places() return model:pile{ body = "units" }:poses() end
 local function picture(name, title)
@@ -93,6 +112,10 @@ local function picture(name, title)
   end
 end
 picture("rest.png", "At rest in still water")
+if film > 0 then
+  model:film{ file = "wave.ogv", every = film, colour = "displacement.magnitude", range = {0, H}, plain = {"slope"},
+              hidden = {"walls"}, view = "iso", up = "z", size = {1600, 1000} }
+end
 
 local function broken_units() return model:pile{ body = "units" }.broken end
 local function distance(from, to)
@@ -123,8 +146,16 @@ local figures = {}
 for k = 1, groups do
   local start_of_group, farthest = places(), {}
   local began = cdem.elapsed()
-  model:run{ duration = math.min(group_time, longest), every = 500,
-             callback = function() watch(start_of_group, farthest) end }
+  local function run(duration)
+    if duration > 0 then
+      model:run{ duration = duration, every = 500, callback = function() watch(start_of_group, farthest) end }
+    end
+  end
+  local duration = math.min(group_time, longest)
+  local rigid = k == 1 and math.min(held, duration) or 0
+  run(rigid)
+  if rigid > 0 and (deformable or breakable) then model:make_deformable{ on = "units" } end
+  run(duration - rigid)
   rows.wall_time = cdem.elapsed() - began
   watch(start_of_group, farthest)
   local largest, mean, rocked, gone, stayed_out, moved, rocking = 0, 0, 0, 0, 0, {}, {}
@@ -138,13 +169,15 @@ for k = 1, groups do
   end
   local nod = gone / ((box.max[2] - box.min[2]) / Dn)
   local broken = (broken_units() - broken_at_rest) / count
+  local counts = model:counts()
+  local faces = counts.broken_tension + counts.broken_shear
   rows.ns[k], rows.nod[k], rows.largest[k], rows.mean[k], rows.out[k] = ns[k], nod, largest, mean, gone
-  rows.rocked[k], rows.broken[k], rows.stayed_out[k] = rocked, broken, stayed_out
+  rows.rocked[k], rows.broken[k], rows.stayed_out[k], rows.faces = rocked, broken, stayed_out, faces
   local at = string.format("ns_%g", ns[k])
   columns_of_units[#columns_of_units + 1] = { name = "movement_over_dn_" .. at, values = moved }
   columns_of_units[#columns_of_units + 1] = { name = "rocking_over_dn_" .. at, values = rocking }
   for name, value in pairs{ units_left = gone, n_od = nod, largest_movement_over_dn = largest, mean_movement_over_dn = mean,
-                            largest_rocking_over_dn = rocked, units_broken = broken * count } do
+                            largest_rocking_over_dn = rocked, units_broken = broken * count, faces_broken = faces } do
     figures[#figures + 1] = { name = name .. "_" .. at, value = value }
   end
   movements[k] = { name = string.format("Ns = %g", ns[k]), x = numbers, y = moved, style = "both" }
@@ -189,6 +222,7 @@ cdem.report{
     source = "Van der Meer 1988: start of damage of Accropodes" },
   { name = "damage_ns", value = damaged, reference = 4.1, kind = "paper", source = "Van der Meer 1988: failure" },
   { name = "broken_share", value = breakable and rows.broken[#rows.broken] or nil },
+  { name = "faces_broken", value = breakable and rows.faces or nil },
   { name = "run_up", value = water.run_up - level, unit = "m" },
   { name = "run_down", value = water.run_down - level, unit = "m" },
   { name = "deepest_contact_over_height", value = model:contacts().deepest / H, reference = 0, kind = "formula",

@@ -1,5 +1,6 @@
 // `cdem run --live` and `cdem view`: what the page is given, who is refused, and that a browser shows it.
 #include "tests/apps/support/served_page.hpp"
+#include "tests/vtk/image.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -68,7 +69,43 @@ public:
   Viewed() : ServedPage({{"case.lua", pressed}}, "view out", "run case.lua --threads 1 --output out") {}
 };
 
+// Two blocks with a gap of 2 m between them, loaded as `load` says, in a run that goes on and on.
+std::string blocks_with(const std::string& load) {
+  return "local cdem = require 'cdem'\n"
+         "local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
+         "local function block(x)\n"
+         "  return { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, 1}, origin = {x, 0, 0} },\n"
+         "           material = rock }\n"
+         "end\n"
+         "local model = cdem.model{ bodies = { block(0), block(3) } }\n"
+         "model:fix{ on = 'z-' }\n" +
+         load + "\nmodel:run{ duration = 1e6 }\n";
+}
+
+// Pale blue pixels of a frame of the page: colours of a body are darker.
+int water_shown(const std::string& script) {
+  const ServedPage run({{"case.lua", script}}, "run case.lua --live --threads 1 --output out");
+  until(run, "status", "\"frame\":1");
+  const std::string answer = run.ask(run.here("frame.png"));
+  const std::string file = run.folder() / "frame.png";
+  write_file(file, answer.substr(answer.find("\r\n\r\n") + 4));
+  const Image frame = read_png(file);
+  int blue = 0;
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const std::array<int, 3> colour = frame.at(x, y);
+      blue += colour[0] > 150 && colour[2] > colour[0] + 30;
+    }
+  return blue;
+}
+
 } // namespace
+
+TEST_CASE("a live run shows the free surface of the water that loads it") {
+  CHECK(water_shown(blocks_with(
+            "model:flow{ water = cdem.water.uniform{ velocity = {0.5, 0, 0}, level = 0.5 } }")) > 10000);
+  CHECK(water_shown(blocks_with("")) == 0);
+}
 
 TEST_CASE("a live run gives its page, its state and frames, and stops when asked to") {
   LiveRun run;
