@@ -76,16 +76,28 @@ struct Reach {
   }
 };
 
-std::vector<TetGradients> undeformed_shapes(const Model& model) { // of all tets of meshes
-  std::vector<TetGradients> shapes;
-  for (auto t = static_cast<std::size_t>(model.mesh.first_tet); t < model.tets.size(); ++t) {
-    std::array<geom::Vec3, 4> x;
-    for (int k = 0; k < 4; ++k)
-      x[k] = model.node_position[model.tets[t][k]];
-    shapes.push_back(tet_gradients(x));
+// Undeformed, of tets of meshes; found when they are asked for.
+class Shapes {
+public:
+  explicit Shapes(const Model& model)
+      : model_(model), place_(model.tets.size() - static_cast<std::size_t>(model.mesh.first_tet), -1) {}
+  const TetGradients& of(int tet) { // until the next call
+    int& place = place_[tet - model_.mesh.first_tet];
+    if (place < 0) {
+      place = static_cast<int>(shapes_.size());
+      std::array<geom::Vec3, 4> x;
+      for (int k = 0; k < 4; ++k)
+        x[k] = model_.node_position[model_.tets[tet][k]];
+      shapes_.push_back(tet_gradients(x));
+    }
+    return shapes_[place];
   }
-  return shapes;
-}
+
+private:
+  const Model& model_;
+  std::vector<int> place_;
+  std::vector<TetGradients> shapes_;
+};
 
 // Adds the blocks of one node of a tet with all that its strain depends on, gradients: 1/m, by node.
 template <class Gradients>
@@ -106,18 +118,28 @@ void add_to_row(const Model& model, const TetGradients& shape, int tet, int corn
 
 // Where faces are freed: the row sums of the tets with all that they reach to, in place of those of the tets alone where
 // they are larger. As faces crack the rows go from these to those.
-void raise_freed_rows(const Model& model, const TetsOfNodes& of, const std::vector<TetGradients>& shapes,
+template <class Wanted>
+void raise_freed_rows(const Model& model, const TetsOfNodes& of, const Wanted& wanted, Shapes& shapes,
                       Row& row, std::vector<double>& sums) {
   const int first_tet = model.mesh.first_tet;
-  std::vector<Reach> reaches(shapes.size()); // without gradients: no face of the tet is freed
+  std::vector<int> place(model.mesh.tet_slot.size(),
+                         -1); // per tet, into reaches; -1: no wanted node is reached
+  std::vector<Reach> reaches;
+  each_side(model.mesh, [&](int tet, int, const geom::Triangle&, const geom::Triangle& beyond) {
+    if (place[tet - first_tet] >= 0 || !(std::any_of(beyond.begin(), beyond.end(), wanted) ||
+                                         std::any_of(model.tets[tet].begin(), model.tets[tet].end(), wanted)))
+      return;
+    place[tet - first_tet] = static_cast<int>(reaches.size());
+    const TetGradients& shape = shapes.of(tet);
+    Reach& reach = reaches.emplace_back();
+    reach.volume = shape.volume;
+    for (int k = 0; k < 4; ++k)
+      reach.at(model.tets[tet][k]) += shape.gradient[k];
+  });
   each_side(model.mesh, [&](int tet, int, const geom::Triangle& own, const geom::Triangle& beyond) {
-    Reach& reach = reaches[tet - first_tet];
-    if (reach.gradients.empty()) {
-      const TetGradients& shape = shapes[tet - first_tet];
-      reach.volume = shape.volume;
-      for (int k = 0; k < 4; ++k)
-        reach.at(model.tets[tet][k]) += shape.gradient[k];
-    }
+    if (place[tet - first_tet] < 0)
+      return;
+    Reach& reach = reaches[place[tet - first_tet]];
     const geom::Vec3 &x0 = model.node_position[own[0]], &x1 = model.node_position[own[1]],
                      &x2 = model.node_position[own[2]];
     const geom::Vec3 part = (x1 - x0).cross(x2 - x0) / (12 * reach.volume); // A n / 6V
@@ -127,9 +149,10 @@ void raise_freed_rows(const Model& model, const TetsOfNodes& of, const std::vect
     }
   });
   const TetsOfNodes reaching = tets_of_nodes(model, [&](const auto& visit) {
-    for (std::size_t t = 0; t < reaches.size(); ++t)
-      for (std::size_t k = 0; k < reaches[t].gradients.size(); ++k)
-        visit(reaches[t].gradients[k].first, first_tet + static_cast<int>(t), static_cast<int>(k));
+    for (std::size_t t = 0; t < place.size(); ++t)
+      for (std::size_t k = 0; place[t] >= 0 && k < reaches[place[t]].gradients.size(); ++k)
+        if (const int node = reaches[place[t]].gradients[k].first; wanted(node))
+          visit(node, first_tet + static_cast<int>(t), static_cast<int>(k));
   });
   for (std::size_t i = 0; i + 1 < reaching.begin.size(); ++i) {
     if (reaching.begin[i] == reaching.begin[i + 1])
@@ -137,12 +160,12 @@ void raise_freed_rows(const Model& model, const TetsOfNodes& of, const std::vect
     row.clear();
     for (std::int64_t j = reaching.begin[i]; j < reaching.begin[i + 1]; ++j) {
       const auto [t, a] = reaching.tets[j];
-      const Reach& reach = reaches[t - first_tet];
+      const Reach& reach = reaches[place[t - first_tet]];
       add_to_row(material_of(model, t), reach.volume, reach.gradients[a].second, reach.gradients, row);
     }
     for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j)
-      if (const auto [t, a] = of.tets[j]; reaches[t - first_tet].gradients.empty())
-        add_to_row(model, shapes[t - first_tet], t, a, row);
+      if (const auto [t, a] = of.tets[j]; place[t - first_tet] < 0)
+        add_to_row(model, shapes.of(t), t, a, row);
     double& sum = sums[static_cast<std::size_t>(model.mesh.first_node) + i];
     sum = std::max(sum, row.largest_sum());
   }
@@ -216,41 +239,51 @@ State moved_back(const State& state, double lag) {
   return moved;
 }
 
-void add_mesh_row_sums(const Model& model, std::vector<double>& sums) {
+void add_mesh_row_sums(const Model& model, std::vector<double>& sums, const std::vector<char>& rows) {
   if (model.mesh.empty())
     return;
   const int first_tet = model.mesh.first_tet;
-  const std::vector<TetGradients> shapes = undeformed_shapes(model);
+  const auto wanted = [&](int node) { return rows.empty() || rows[node] != 0; };
+  Shapes shapes(model);
+  std::vector<int> tets; // at wanted nodes
+  for (int t = first_tet; t < static_cast<int>(model.tets.size()); ++t)
+    if (std::any_of(model.tets[t].begin(), model.tets[t].end(), wanted))
+      tets.push_back(t);
   const TetsOfNodes of = tets_of_nodes(model, [&](const auto& visit) {
-    for (int t = first_tet; t < static_cast<int>(model.tets.size()); ++t)
+    for (const int t : tets)
       for (int k = 0; k < 4; ++k)
-        visit(model.tets[t][k], t, k);
+        if (wanted(model.tets[t][k]))
+          visit(model.tets[t][k], t, k);
   });
   Row row(model.node_position.size());
   for (std::size_t i = 0; i + 1 < of.begin.size(); ++i) {
     row.clear();
     for (std::int64_t j = of.begin[i]; j < of.begin[i + 1]; ++j)
-      add_to_row(model, shapes[of.tets[j].first - first_tet], of.tets[j].first, of.tets[j].second, row);
+      add_to_row(model, shapes.of(of.tets[j].first), of.tets[j].first, of.tets[j].second, row);
     sums[static_cast<std::size_t>(model.mesh.first_node) + i] += row.largest_sum();
   }
   if (!model.mesh.sides.empty())
-    raise_freed_rows(model, of, shapes, row, sums);
-  each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
-    const FaceBatch& batch = model.mesh.faces[at.batch];
-    const int lane = at.lane;
+    raise_freed_rows(model, of, wanted, shapes, row, sums);
+  each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t face, int lane) {
+    const FaceNodes nodes = face_nodes(model.mesh, chunk, face, lane);
+    if (!std::any_of(nodes.a.begin(), nodes.a.end(), wanted) &&
+        !std::any_of(nodes.b.begin(), nodes.b.end(), wanted))
+      return;
     const Bonding& bonding = model.bodies[model.blocks[chunk.block].body].bonding;
     const double ratio = bonding.is_cohesive() ? 1 : bonding.shear_ratio;
-    const FaceNodes nodes = face_nodes(model.mesh, chunk, at.batch, lane);
     const geom::Vec3 &x0 = model.node_position[nodes.a[0]], &x1 = model.node_position[nodes.a[1]],
                      &x2 = model.node_position[nodes.a[2]];
     const geom::Vec3 n = (x1 - x0).cross(x2 - x0).normalized();
-    const geom::Mat3 k = batch.kn[lane] * (ratio * geom::Mat3::Identity() + (1 - ratio) * n * n.transpose());
+    const geom::Mat3 k =
+        model.mesh.faces[face].kn[lane] * (ratio * geom::Mat3::Identity() + (1 - ratio) * n * n.transpose());
     const double sum = 2 * k.cwiseAbs().rowwise().sum().maxCoeff(); // weights of both sides sum to 2
-    for (int i = 0; i < 3; ++i) {
-      const double weight = i == at.point ? 2.0 / 3 : 1.0 / 6;
-      sums[nodes.a[i]] += weight * sum;
-      sums[nodes.b[i]] += weight * sum;
-    }
+    for (int point = 0; point < 3; ++point)
+      for (int i = 0; i < 3; ++i) {
+        const double weight = i == point ? 2.0 / 3 : 1.0 / 6;
+        for (const int node : {nodes.a[i], nodes.b[i]})
+          if (wanted(node))
+            sums[node] += weight * sum;
+      }
   });
 }
 

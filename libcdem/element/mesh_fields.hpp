@@ -23,7 +23,8 @@ FaceSpring face_point_response(const Model&, const State&, const std::vector<Nod
 std::vector<Node> displacement_ago(const State&, double lag);
 State moved_back(const State&, double lag);
 
-// Adds the row sums of |K| of tets and bonded faces, N/m; per node the largest of its three rows.
-void add_mesh_row_sums(const Model&, std::vector<double>& sums);
+// Adds the row sums of |K| of tets and bonded faces, N/m; per node the largest of its three rows. rows: of those nodes that are 1
+// alone (n_nodes); empty: of all.
+void add_mesh_row_sums(const Model&, std::vector<double>& sums, const std::vector<char>& rows = {});
 
 } // namespace cdem

@@ -57,7 +57,7 @@ void add_facets(const Model& model, const Block& block, Facets& facets_of) {
   std::optional<FaceStrengths> strengths;
   if (has_own_strengths(body)) {
     seed = mesh_seed(model, static_cast<int>(&block - model.blocks.data()));
-    strengths.emplace(body, seed.mesh, geom::inner_faces(seed.mesh));
+    strengths.emplace(body, seed.mesh);
   }
   std::map<std::pair<int, int>, Facet> facets;
   for (int t = first; t < block.tet_end - mesh.first_tet; ++t)

@@ -13,11 +13,6 @@
 namespace cdem {
 namespace {
 
-using Tets = std::pair<int, int>;
-Tets tets_at(const MeshData& mesh, std::int64_t face) {
-  return {mesh.face_tets[face].tet_a, mesh.face_tets[face].tet_b};
-}
-
 // Tets keep their corners, so they tell which node each was: one of those that have been joined.
 std::vector<int> old_nodes(const Model& old, const Model& now) {
   std::vector<int> was(now.node_position.size());
@@ -29,58 +24,71 @@ std::vector<int> old_nodes(const Model& old, const Model& now) {
   return was;
 }
 
-void map_faces(const Model& old, const Model& now, TopologyMap& map) {
-  std::map<Tets, std::int64_t> old_face;
-  each_face(old.mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
-    old_face[tets_at(old.mesh, batch * lanes + lane)] = batch * lanes + lane;
-  });
+// Faces stand by their first tets in both models. Returns the new numbers of the old ones, -1: joined.
+std::vector<std::int64_t> map_faces(const Model& old, const Model& now, TopologyMap& map) {
   std::vector<std::int64_t>& was = map.face.emplace(now.mesh.face_tets.size(), -1);
+  std::vector<std::int64_t> is(old.mesh.face_tets.size(), -1);
+  std::size_t next = 0; // of the old ones, the first whose first tet is not a lower one
+  const auto first_tet = [&](std::size_t face) { return old.mesh.face_tets[face].tet_a; };
   each_face(now.mesh, [&](const MeshChunk&, std::int64_t batch, int lane) {
     const std::int64_t face = batch * lanes + lane;
-    if (const auto found = old_face.find(tets_at(now.mesh, face)); found != old_face.end())
-      was[face] = found->second;
+    const FaceTets& tets = now.mesh.face_tets[face];
+    while (next < is.size() && first_tet(next) < tets.tet_a) // an empty lane has -1
+      ++next;
+    for (std::size_t f = next; f < is.size() && first_tet(f) == tets.tet_a; ++f)
+      if (old.mesh.face_tets[f].tet_b == tets.tet_b) {
+        was[face] = static_cast<std::int64_t>(f);
+        is[f] = face;
+      }
   });
+  return is;
 }
 
-// Outer triangles keep their numbers within their block; the sides of freed faces follow them.
-void map_triangles(const Model& old, const Model& now, TopologyMap& map) {
+// Outer triangles keep their numbers within their block; the sides of freed faces follow them. new_face: by the old numbers.
+void map_triangles(const Model& old, const Model& now, const std::vector<std::int64_t>& new_face,
+                   TopologyMap& map) {
   const ContactSurface &was = old.surface, &is = now.surface;
   std::vector<int>& new_triangle = map.new_triangle.emplace();
-  std::map<std::pair<Tets, int>, int> inner; // of which side
+  std::vector<std::array<int, 2>> inner(now.mesh.face_tets.size(), {-1, -1}); // of both sides
+  const auto side_of = [](const Model& model, const ContactTriangle& triangle) {
+    return triangle.tet == model.mesh.face_tets[triangle.face].tet_a ? 0 : 1;
+  };
   for (int t = 0; t < static_cast<int>(is.triangles.size()); ++t)
     if (is.triangles[t].face >= 0)
-      inner[{tets_at(now.mesh, is.triangles[t].face), is.triangles[t].tet}] = t;
+      inner[is.triangles[t].face][side_of(now, is.triangles[t])] = t;
   for (int t = 0; t < static_cast<int>(was.triangles.size()); ++t) {
     const ContactTriangle& triangle = was.triangles[t];
-    if (triangle.face < 0) {
+    if (triangle.face < 0)
       new_triangle.push_back(t - was.block_begin[triangle.block] + is.block_begin[triangle.block]);
-      continue;
-    }
-    const auto side = inner.find({tets_at(old.mesh, triangle.face), triangle.tet});
-    new_triangle.push_back(side != inner.end() ? side->second : -1); // -1: between joined nodes
+    else if (const std::int64_t face = new_face[triangle.face]; face >= 0)
+      new_triangle.push_back(inner[face][side_of(old, triangle)]);
+    else
+      new_triangle.push_back(-1); // between joined nodes
   }
 }
 
-// Writes freed.state and freed.old_node for freed.model.
-void carry_over(const Model& old, TopologyMap& map, Freed& freed) {
-  map.node = old_nodes(old, freed.model);
-  map_faces(old, freed.model, map);
-  map_triangles(old, freed.model, map);
+// Goes on from map.divided.
+Freed carry_over(const Model& old, State&& state, FreedModel&& now, TopologyMap& map) {
+  Freed freed{std::move(now.model), std::move(state), {}, {}, std::move(now.tets)};
+  if (!map.node)
+    map.node = old_nodes(old, freed.model);
+  map_triangles(old, freed.model, map_faces(old, freed.model, map), map);
   map.fragments_of_nodes = [](const Model& m, const State& s) { return fragments_of_nodes(m, s); };
   carry(old, freed.model, map, freed.state);
   freed.old_node = std::move(*map.node);
   freed.anew.resize(freed.old_node.size(), 0);
+  return freed;
 }
 
 } // namespace
 
-Freed split_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
-  Freed freed{with_freed_nodes(model, nodes), state, {}, {}};
+Freed split_nodes(const Model& model, State state, const std::vector<char>& nodes) {
+  FreedModel now = with_freed_nodes(model, nodes);
   TopologyMap map;
-  const std::vector<int> was = old_nodes(model, freed.model);
+  const std::vector<int>& was = map.node.emplace(old_nodes(model, now.model));
   for (int node = 0; node < static_cast<int>(was.size()); ++node)
-    map.divided.push_back({was[node], node, freed.model.node_mass[node] / model.node_mass[was[node]]});
-  carry_over(model, map, freed);
+    map.divided.push_back({was[node], node, now.model.node_mass[node] / model.node_mass[was[node]]});
+  Freed freed = carry_over(model, std::move(state), std::move(now), map);
   const auto first = static_cast<std::size_t>(model.mesh.first_node);
   for (std::size_t i = first; i < freed.anew.size(); ++i)
     freed.anew[i] =
@@ -128,8 +136,8 @@ std::vector<Node> bring_together(const Model& model, State& state, const std::ve
   return moved;
 }
 
-Freed join_nodes(const Model& model, const State& state, const std::vector<char>& nodes) {
-  Freed joined{with_freed_nodes(model, {}, nodes), state, {}, {}};
+Freed join_nodes(const Model& model, State state, const std::vector<char>& nodes) {
+  FreedModel joined = with_freed_nodes(model, {}, nodes);
   TopologyMap map;
   std::vector<int> now(model.node_position.size());
   for (int node = 0; node < model.mesh.first_node; ++node)
@@ -139,8 +147,7 @@ Freed join_nodes(const Model& model, const State& state, const std::vector<char>
       now[model.tets[t][k]] = joined.model.tets[t][k];
   for (int node = 0; node < static_cast<int>(now.size()); ++node)
     map.divided.push_back({node, now[node], 1});
-  carry_over(model, map, joined);
-  return joined;
+  return carry_over(model, std::move(state), std::move(joined), map);
 }
 
 void preload_faces(const Model& model, State& state, const std::vector<Node>& net_force,

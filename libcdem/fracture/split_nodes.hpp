@@ -17,10 +17,11 @@ struct Freed {
   State state;
   std::vector<int> old_node; // per node, which it was before
   std::vector<char> anew;    // per node, 1 for the copies of those that were not freed before
+  std::vector<int> tets;     // of the model, ascending: those around nodes that have been freed or joined
 };
 
 // The same model and state with these nodes freed (n_nodes).
-Freed split_nodes(const Model&, const State&, const std::vector<char>& nodes);
+Freed split_nodes(const Model&, State, const std::vector<char>& nodes);
 
 // Moves all copies of these nodes (n_nodes; of a node all or none) to their mean place, and gives them their mean velocity,
 // by mass. strain_step: s, by which the stress stands behind the nodes. Returns by how much each has moved more than its
@@ -29,7 +30,7 @@ std::vector<Node> bring_together(const Model&, State&, const std::vector<char>& 
 
 // The same model and state with these nodes freed no more. Their copies have been brought together, and the faces between them
 // hold and carry nothing.
-Freed join_nodes(const Model&, const State&, const std::vector<char>& nodes);
+Freed join_nodes(const Model&, State, const std::vector<char>& nodes);
 
 // Gives the faces between the copies of these nodes the forces with which all copies of a node have one acceleration, that
 // of all of them together, where the net forces (N, n_nodes) alone would pull them apart: differences of a potential that

@@ -18,6 +18,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace cdem {
 namespace {
@@ -91,6 +92,55 @@ CDEM_INLINE void near_kernel(const StressBatch* stress, const StressBatch* befor
   }
 }
 
+// Whether some tet of each batch may have a stress of more than this norm, now or at its rate ahead. rise: Pa s, `ahead` times the
+// largest modulus. |s + a d|^2 <= 2 |s|^2 + 2 a^2 |d|^2.
+CDEM_INLINE void loaded_kernel(const MeshBatch* batches, const StressBatch* stress, std::int64_t count,
+                               const Node* position, const Node* velocity, double harmless_norm2, double rise,
+                               char* loaded) {
+  const simd::Oct most = simd::Oct{} + 0.5 * harmless_norm2;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto& place = batches[i].place;
+    const simd::Vec x0 = simd::gather(position, place[0]), v0 = simd::gather(velocity, place[0]);
+    const simd::Vec e1 = minus(simd::gather(position, place[1]), x0),
+                    e2 = minus(simd::gather(position, place[2]), x0),
+                    e3 = minus(simd::gather(position, place[3]), x0);
+    const simd::Vec v1 = minus(simd::gather(velocity, place[1]), v0),
+                    v2 = minus(simd::gather(velocity, place[2]), v0),
+                    v3 = minus(simd::gather(velocity, place[3]), v0);
+    const simd::Vec c1 = cross(e2, e3), c2 = cross(e3, e1), c3 = cross(e1, e2);
+    const auto along = [&](const simd::Oct& a, const simd::Oct& b, const simd::Oct& c) {
+      return plus(plus(scaled(a, c1), scaled(b, c2)), scaled(c, c3));
+    };
+    const simd::Vec gx = along(v1.x, v2.x, v3.x), gy = along(v1.y, v2.y, v3.y), gz = along(v1.z, v2.z, v3.z);
+    const simd::Oct per_volume = rise / dot(e1, c1);
+    simd::Oct sum = per_volume * per_volume * (dot(gx, gx) + dot(gy, gy) + dot(gz, gz));
+    for (int c = 0; c < 6; ++c) {
+      const simd::Oct s = simd::load(stress[i].component[c]);
+      sum += (c < 3 ? 1.0 : 2.0) * s * s;
+    }
+    loaded[i] = static_cast<char>(simd::any(simd::below(most, sum)));
+  }
+}
+
+// Per batch of tets of a chunk, 0: no stress is beyond the bounds, now or in that time.
+std::vector<char> loaded_batches(const Model& model, const State& state, const MeshChunk& chunk,
+                                 const std::vector<UtilisationBound>& bounds, double ahead) {
+  std::vector<Node> position(static_cast<std::size_t>(chunk.places())), velocity(position.size());
+  for (int place = 0; place < static_cast<int>(chunk.places()); ++place) {
+    const int node = model.mesh.node_at(chunk, place);
+    const geom::Vec3 x = place_of(model, state, node);
+    position[place] = {x.x(), x.y(), x.z(), 0};
+    velocity[place] = state.velocity[node];
+  }
+  const Elastic& rock = model.bodies[model.blocks[chunk.block].body].material;
+  const double modulus = 2 * rock.shear_modulus() + 3 * std::max(0.0, rock.lame_lambda());
+  std::vector<char> loaded(static_cast<std::size_t>(chunk.batches.size()));
+  simd::best<loaded_kernel>(model.mesh.batches.data() + chunk.batches.begin,
+                            state.stress.data() + chunk.batches.begin, chunk.batches.size(), position.data(),
+                            velocity.data(), harmless_norm2(bounds), ahead * modulus, loaded.data());
+  return loaded;
+}
+
 bool may_use(const std::vector<UtilisationBound>& bounds, const geom::Mat3& s) {
   const double components[6] = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2)};
   return std::any_of(bounds.begin(), bounds.end(), [&](const UtilisationBound& bound) {
@@ -125,11 +175,24 @@ void NearStrength::forget_pulls(const Model& model) {
   pull2.assign(model.mesh.faces.size() * lanes, std::numeric_limits<double>::infinity());
 }
 
+namespace {
+
+KnownOfModel<StrengthWatch>& known_watches() {
+  static KnownOfModel<StrengthWatch> known;
+  return known;
+}
+
+} // namespace
+
 StrengthWatch StrengthWatch::of(const Model& model) {
   if (!has_cohesive_bodies(model))
     return {};
-  static KnownOfModel<StrengthWatch> known;
-  return *known.of(model, [&] { return StrengthWatch(model); });
+  return *known_watches().of(model, [&] { return StrengthWatch(model); });
+}
+
+void StrengthWatch::keep(const Model& model) {
+  if (!std::exchange(kept_, true))
+    known_watches().of(model, [&] { return *this; });
 }
 
 StrengthWatch::StrengthWatch(const Model& model) {
@@ -154,7 +217,7 @@ StrengthWatch::StrengthWatch(const Model& model) {
       seed_of = chunk.block;
       strengths.reset();
       seed = mesh_seed(model, seed_of);
-      strengths.emplace(body, seed.mesh, geom::inner_faces(seed.mesh));
+      strengths.emplace(body, seed.mesh);
     }
     const int first = model.blocks[chunk.block].tet_begin - mesh.first_tet;
     OwnRocks rocks(body);
@@ -181,6 +244,7 @@ StrengthWatch::StrengthWatch(const Model& model) {
     bounds_[c].harmless = std::sqrt(harmless_norm2(bounds_[c].whole));
   }
   freed(model);
+  kept_ = true;
 }
 
 FacePlane StrengthWatch::plane_between(const Model& model, int tet_a, int tet_b) const {
@@ -379,6 +443,7 @@ private:
 
 void StrengthWatch::freed(const Model& model) {
   const MeshData& mesh = model.mesh;
+  kept_ = false;
   open_.assign(mesh.batches.size(), 0);
   held_.assign(mesh.chunks.size(), 0);
   slots_.assign(mesh.faces.size(), {});
@@ -466,8 +531,11 @@ std::vector<char> StrengthWatch::due(const Model& model, const State& state, con
     const MeshChunk& chunk = model.mesh.chunks[c];
     const ChunkFaces faces(*this, model, chunk);
     const std::vector<UtilisationBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_strength;
+    const std::vector<char> loaded =
+        everywhere ? loaded_batches(model, state, chunk, bounds, ahead) : std::vector<char>();
     for (std::int64_t b = chunk.batches.begin; b < chunk.batches.end && due[c] == 0; ++b) {
-      if (open_[b] == 0 || !(everywhere || (near.bits[b] & NearStrength::may_be_due) != 0))
+      if (open_[b] == 0 || (everywhere ? loaded[b - chunk.batches.begin] == 0
+                                       : (near.bits[b] & NearStrength::may_be_due) == 0))
         continue;
       const std::int64_t first = chunk.tets.begin + (b - chunk.batches.begin) * lanes;
       for (std::int64_t t = first; t < std::min(first + lanes, chunk.tets.end); ++t)
@@ -495,7 +563,7 @@ std::vector<char> StrengthWatch::due(const Model& model, const State& state, con
 
 std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
                                          const std::vector<char>& bodies, int threads, double ahead) const {
-  std::vector<std::vector<int>> found(model.mesh.chunks.size()), loaded(found.size()); // nodes; star blocks
+  std::vector<std::vector<int>> found(model.mesh.chunks.size()), stars_of(found.size()); // nodes; star blocks
   const auto of_bodies = [&](std::int64_t c) {
     return looks_at(c) && has_held_faces(c) && bodies[model.blocks[model.mesh.chunks[c].block].body] != 0;
   };
@@ -509,13 +577,15 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
       return;
     const ChunkFaces faces(*this, model, chunk);
     const std::vector<UtilisationBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_half;
+    const std::vector<char> loaded = loaded_batches(model, state, chunk, bounds, ahead);
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
-      if (open_[chunk.batches.begin + (t - chunk.tets.begin) / lanes] == 0)
+      const std::int64_t batch = (t - chunk.tets.begin) / lanes;
+      if (open_[chunk.batches.begin + batch] == 0 || loaded[batch] == 0)
         continue;
       if (!faces.may_reach(bounds, state, t, ahead))
         continue;
       if (const int star = star_of(model, t); star >= 0)
-        loaded[c].push_back(star);
+        stars_of[c].push_back(star);
       else
         for (int face = 0; face < 4; ++face)
           if (faces.is_open(t, face) && faces.utilisation(state, t, face, ahead) >= freed_at)
@@ -528,7 +598,7 @@ std::vector<char> StrengthWatch::to_free(const Model& model, const State& state,
     });
   });
   std::set<int> stars;
-  for (const std::vector<int>& of : loaded)
+  for (const std::vector<int>& of : stars_of)
     stars.insert(of.begin(), of.end());
   for (std::size_t c = 0; c < found.size() && !stars.empty(); ++c)
     if (of_bodies(static_cast<std::int64_t>(c))) {
@@ -562,10 +632,12 @@ std::vector<char> StrengthWatch::to_join(const Model& model, const State& state,
     const Elastic& rock = model.bodies[model.blocks[chunk.block].body].material;
     const double calm =
         calm_for * model.blocks[chunk.block].size / std::sqrt(rock.p_wave_modulus() / rock.density);
+    const std::vector<UtilisationBound>& bounds = bounds_[static_cast<std::size_t>(c)].at_half;
+    const std::vector<char> loaded = loaded_batches(model, state, chunk, bounds, 0);
     for (std::int64_t t = chunk.tets.begin; t < chunk.tets.end; ++t) {
       const int slot = mesh.tet_slot[t - mesh.first_tet];
       if (state.time - state.near_at[slot / lanes].time[slot % lanes] < calm ||
-          faces.may_reach(bounds_[static_cast<std::size_t>(c)].at_half, state, t, 0)) {
+          (loaded[slot / lanes - chunk.batches.begin] != 0 && faces.may_reach(bounds, state, t, 0))) {
         for (const int node : model.tets[t])
           stays(node);
         if (const int star = star_of(model, t); star >= 0)

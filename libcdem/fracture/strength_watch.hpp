@@ -59,6 +59,7 @@ public:
   static StrengthWatch of(const Model&);
   bool empty() const { return neighbours_.empty(); } // no body is cohesive
   void freed(const Model&);                          // nodes have been freed, all else is as it was
+  void keep(const Model&);                           // for the next stage of this model
 
   // Some face in the chunk may crack. before: the stress of its batches a step ago; null: unknown.
   bool looks_at(std::int64_t chunk) const { return !bounds_.empty() && !bounds_[chunk].at_strength.empty(); }
@@ -125,6 +126,7 @@ private:
   std::vector<char> held_;               // per chunk, likewise
   std::vector<SlotsOfTets> slots_;       // per batch of faces
   std::vector<std::uint8_t> half_freed_; // likewise, a bit for each joint freed at some of its corners only
+  bool kept_ = true;                     // `of` finds it
 };
 
 } // namespace cdem

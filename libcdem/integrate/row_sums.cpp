@@ -8,12 +8,42 @@
 #include <cmath>
 
 namespace cdem {
+namespace {
+
+KnownOfModel<std::vector<double>>& known_sums() {
+  static KnownOfModel<std::vector<double>> known;
+  return known;
+}
+
+} // namespace
 
 std::vector<double> element_row_sums(const Model& model) {
-  static KnownOfModel<std::vector<double>> known;
-  return *known.of(model, [&] {
+  return *known_sums().of(model, [&] {
     std::vector<double> sums = stiffness_row_sums(model);
     add_mesh_row_sums(model, sums);
+    return sums;
+  });
+}
+
+void renew_row_sums(const Model& before, const Model& now, const std::vector<int>& old_node,
+                    const std::vector<int>& tets) {
+  std::vector<char> rows(now.node_position.size(), 0), near(now.tets.size(), 0);
+  for (const int tet : tets) {
+    near[tet] = 1;
+    for (const int node : now.tets[tet])
+      rows[node] = 1;
+  }
+  each_side(now.mesh, [&](int tet, int, const geom::Triangle&, const geom::Triangle& beyond) {
+    for (const int node : beyond)
+      rows[node] |= near[tet];
+  });
+  const std::vector<double> old = element_row_sums(before);
+  known_sums().of(now, [&] {
+    std::vector<double> sums(rows.size(), 0);
+    for (std::size_t node = 0; node < rows.size(); ++node)
+      if (rows[node] == 0)
+        sums[node] = old[old_node[node]];
+    add_mesh_row_sums(now, sums, rows);
     return sums;
   });
 }

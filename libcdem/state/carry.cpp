@@ -13,7 +13,7 @@ public:
       : old_(old), now_(now), map_(map), from_(std::move(state)), to_(state) {}
 
   void operator()() {
-    to_ = initial_state(now_);
+    to_ = map_.tet ? initial_state(now_) : initial_state_without_tets(now_);
     each_field([&](const FieldRow& row, auto& from, auto& to) { carry(row, from, to); }, from_, to_);
     carry_slips();
     carry_contacts();

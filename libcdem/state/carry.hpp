@@ -42,6 +42,9 @@ struct TopologyMap {
   std::function<std::vector<int>(const Model&, const State&)> fragments_of_nodes;
 };
 
+// That of a model whose arrays by tet of meshes are left empty: they are taken from another State.
+State initial_state_without_tets(const Model&);
+
 // now: the model that the map leads to.
 void carry(const Model& old, const Model& now, const TopologyMap&, State&);
 

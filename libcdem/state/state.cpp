@@ -1,6 +1,7 @@
 #include "libcdem/state/state.hpp"
 
 #include "libcdem/model/build/rigid_bodies.hpp"
+#include "libcdem/state/carry.hpp"
 #include "libcdem/state/places.hpp"
 
 #include <algorithm>
@@ -165,12 +166,14 @@ std::optional<std::size_t> entries_of(const FieldRow& row, const Model& model) {
   return places(row.place, model);
 }
 
-State initial_state(const Model& model) {
+namespace {
+
+State initial_state_of(const Model& model, bool with_tets) {
   State state;
   each_field(
       [&](const FieldRow& row, auto& field) {
         if constexpr (is_array<decltype(field)>)
-          if (row.need != FieldNeed::later)
+          if (row.need != FieldNeed::later && (with_tets || row.place != FieldPlace::tet_batch))
             field.assign(entries_of(row, model).value_or(0), first_entry(field));
       },
       state);
@@ -187,6 +190,16 @@ State initial_state(const Model& model) {
   });
   set_rigid_states(model, state);
   return state;
+}
+
+} // namespace
+
+State initial_state(const Model& model) {
+  return initial_state_of(model, true);
+}
+
+State initial_state_without_tets(const Model& model) {
+  return initial_state_of(model, false);
 }
 
 const char* field_with_nan(const State& state) {

@@ -5,6 +5,8 @@
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/step/mesh_forces.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 namespace {
 
@@ -21,6 +23,14 @@ ReadAhead reads_before(const Model& model, const State& state, const Workspace& 
   ahead.add(model.node_mass.data() + node, nodes);
   add_bond_reads(model, work.bond, index - 1, ahead);
   return ahead;
+}
+
+bool touches_any(const MeshData& mesh, const MeshChunk& chunk, const std::vector<char>& nodes) {
+  const auto any = [&](const auto& in, Range range, const auto& is) {
+    return std::any_of(in.begin() + range.begin, in.begin() + range.end, is);
+  };
+  return nodes.empty() || any(nodes, chunk.nodes, [](char is) { return is != 0; }) ||
+         any(mesh.others, chunk.others, [&](int node) { return nodes[node] != 0; });
 }
 
 void add(Node& force, const Node& more) {
@@ -43,7 +53,8 @@ const Node* block_forces(const Model& model, const State& state, const Workspace
   return force.data();
 }
 
-std::vector<Node> inner_forces(const Model& model, const State& state, Workspace& work, int threads) {
+std::vector<Node> inner_forces(const Model& model, const State& state, Workspace& work, int threads,
+                               const std::vector<char>& only) {
   State copy = state; // bookkeeping of springs and faces stays as it is
   contact_forces(model, copy, work.contact, threads);
   for_chunks(static_cast<std::int64_t>(model.point_chunks.size()), threads,
@@ -51,6 +62,8 @@ std::vector<Node> inner_forces(const Model& model, const State& state, Workspace
   std::vector<Node> force(model.node_position.size());
   for_chunks(static_cast<std::int64_t>(model.mesh.chunks.size()), threads, [&](std::int64_t c) {
     const MeshChunk& chunk = model.mesh.chunks[c];
+    if (!touches_any(model.mesh, chunk, only))
+      return;
     if (is_rigid(model, chunk)) { // only interfaces pull at its nodes
       if (chunk.stars)
         add_bond_forces(model, work.bond.force(), chunk.nodes, force.data() + chunk.nodes.begin);
@@ -72,8 +85,9 @@ std::vector<Node> inner_forces(const Model& model, const State& state, Workspace
   return force;
 }
 
-std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work, int threads) {
-  std::vector<Node> force = inner_forces(model, state, work, threads);
+std::vector<Node> net_forces(const Model& model, const State& state, Workspace& work, int threads,
+                             const std::vector<char>& only) {
+  std::vector<Node> force = inner_forces(model, state, work, threads, only);
   const ResolvedConditions& r = work.resolved;
   for (std::size_t i = 0; i < force.size(); ++i) {
     if (!work.contact.loads.force.empty())

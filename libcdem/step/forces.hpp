@@ -12,10 +12,12 @@ const Node* block_forces(const Model&, const State&, const Workspace&, std::int6
 
 // N, of elements and springs at every node, where the nodes are now (n_nodes), without loads. The workspace gets the
 // forces of contacts, where it does not have them (ContactWork::due).
-std::vector<Node> inner_forces(const Model&, const State&, Workspace&, int threads);
+std::vector<Node> inner_forces(const Model&, const State&, Workspace&, int threads,
+                               const std::vector<char>& only = {}); // as below
 
 // The same with loads and contacts, but for contacts of rigid bodies (ContactLoads::on_rigid); the workspace's loads are up
-// to date.
-std::vector<Node> net_forces(const Model&, const State&, Workspace&, int threads);
+// to date. only: what other nodes get means nothing, where these are 1 (n_nodes).
+std::vector<Node> net_forces(const Model&, const State&, Workspace&, int threads,
+                             const std::vector<char>& only = {});
 
 } // namespace cdem

@@ -418,6 +418,7 @@ StageResult Stage::finish() {
   if (!kept_end_)
     keep_last_good(); // last: whoever ends a stage before goes on from the restart point and the state that stood there
   keep_work();
+  watch_.keep(context_.model);
   return {step, report.residual, context_.log.broken_tension - broken_.tension_before,
           context_.log.broken_shear - broken_.shear_before, progress_.wall_time()};
 }

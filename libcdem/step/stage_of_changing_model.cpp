@@ -4,6 +4,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/fracture/renew_interfaces.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
+#include "libcdem/integrate/row_sums.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/forces.hpp"
 #include "libcdem/step/mesh_forces.hpp"
@@ -50,7 +51,7 @@ bool Stage::split_nodes(double time_step) {
     due = std::find(nodes.begin(), nodes.end(), 1) != nodes.end();
   }
   if (due)
-    change_nodes(cdem::split_nodes(model, state, nodes));
+    change_nodes(cdem::split_nodes(model, std::move(state), nodes));
   progress_.times.end(StepLine::cracks);
   return due;
 }
@@ -70,7 +71,7 @@ bool Stage::join_nodes() {
     see_whole();
     const double before = energy(model, state).total();
     strain_meshes(model, state, bring_together(model, state, nodes, work.strain_step), context_.threads);
-    change_nodes(cdem::join_nodes(model, state, nodes));
+    change_nodes(cdem::join_nodes(model, std::move(state), nodes));
     state.spent.cutting += before - energy(model, state).total();
   }
   progress_.times.end(StepLine::cracks);
@@ -86,6 +87,7 @@ void Stage::change_nodes(Freed freed) {
   const std::vector<int> slots = model.mesh.tet_slot;
   const FlowPatterns flows = flow_patterns(work.resolved);
   const std::vector<int> new_node = new_nodes_of_unchanged(model, freed.model);
+  renew_row_sums(model, freed.model, freed.old_node, freed.tets);
   *context_.changing = std::move(freed.model);
   state = std::move(freed.state);
   if (scale_masses)
@@ -119,7 +121,7 @@ void Stage::change_nodes(Freed freed) {
   if (std::find(freed.anew.begin(), freed.anew.end(), 1) == freed.anew.end())
     return;
   const BondWork bond = work.bond; // what springs lose in the step to come begins with the one before
-  preload_faces(model, state, net_forces(model, state, work, context_.threads), freed.anew);
+  preload_faces(model, state, net_forces(model, state, work, context_.threads, freed.anew), freed.anew);
   work.bond = bond;
   work.near.forget_pulls(model); // those of the net forces are of another moment
   contacts_.start_anew(model, state, work.contact, true);

@@ -61,7 +61,8 @@ Grid make_grid(const std::vector<Box>& boxes, const std::vector<int>& members) {
 } // namespace
 
 std::vector<std::pair<int, int>> touching_pairs(const std::vector<Box>& boxes,
-                                                const std::vector<char>& wanted) {
+                                                const std::vector<char>& wanted,
+                                                const std::function<bool(int, int)>& counts) {
   assert(wanted.empty() || wanted.size() == boxes.size());
   const auto is_wanted = [&](int i) { return wanted.empty() || wanted[i]; };
   Box region;
@@ -95,7 +96,7 @@ std::vector<std::pair<int, int>> touching_pairs(const std::vector<Box>& boxes,
         if (!(is_wanted(i) || is_wanted(j)) || !touch(boxes[i], boxes[j]))
           continue;
         // Boxes that meet in several cells count in the one that holds the lower corner of their common part.
-        if (grid.index(grid.of(boxes[i].min.cwiseMax(boxes[j].min))) == c)
+        if (grid.index(grid.of(boxes[i].min.cwiseMax(boxes[j].min))) == c && (!counts || counts(i, j)))
           pairs.emplace_back(i, j);
       }
   std::sort(pairs.begin(), pairs.end());

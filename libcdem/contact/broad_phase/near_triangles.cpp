@@ -148,28 +148,26 @@ NearWithin near_within(const Model& model, const ContactWork& work, const Search
   const int begin = active.block_begin[block];
   std::vector<geom::Box> boxes(active.boxes.begin() + begin,
                                active.boxes.begin() + active.block_begin[block + 1]);
-  const auto strangers = [&](int i, int j) {
-    const int a = active.triangles[i], b = active.triangles[j];
+  const auto strangers = [&](int i, int j) { // by their boxes
+    const int a = active.triangles[begin + i], b = active.triangles[begin + j];
     return work.movers.fragment_of_triangle[a] != work.movers.fragment_of_triangle[b] ||
            apart_at_first(model, work.sizes, a, b);
   };
   NearWithin near;
   std::vector<char> meets(boxes.size(), 0);
-  for (const auto& [i, j] : geom::touching_pairs(boxes)) {
-    const int a = begin + i, b = begin + j;
-    if (!strangers(a, b) || parted(margins, active, a, b))
-      continue;
-    near.meeting.emplace_back(a, b);
+  const auto may_meet = [&](int i, int j) {
+    return strangers(i, j) && !parted(margins, active, begin + i, begin + j);
+  };
+  for (const auto& [i, j] : geom::touching_pairs(boxes, {}, may_meet)) {
+    near.meeting.emplace_back(begin + i, begin + j);
     meets[i] = meets[j] = 1;
   }
   if (near.meeting.empty())
     return near;
   for (geom::Box& box : boxes)
     box = grown(box, 2 * work.motion.skin[block]);
-  for (const auto& [i, j] : geom::touching_pairs(boxes, meets)) {
+  for (const auto& [i, j] : geom::touching_pairs(boxes, meets, strangers)) {
     const int a = begin + i, b = begin + j;
-    if (!strangers(a, b))
-      continue;
     if (meets[i])
       near.looked_at.emplace_back(a, b);
     if (meets[j])

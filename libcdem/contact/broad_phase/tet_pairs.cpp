@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace cdem {
 namespace {
@@ -26,7 +27,10 @@ constexpr int rings_below = 2;
 // Steps for which pairs are near.
 constexpr double steps_near = 30;
 
-std::vector<int> joints_of(const Model& model, const State& state, const ContactWork& work) {
+using Joints = std::vector<std::array<int, 4>>;
+
+Joints joints_of(const Model& model, const State& state, const ContactWork& work,
+                 const std::vector<SurfaceTet>& tets) {
   geom::DisjointSets sets(model.node_position.size());
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
     if (!work.movers.broken[chunk.block] || (state.faces[batch].told[lane] & ToldOfFace::left) != 0)
@@ -35,18 +39,20 @@ std::vector<int> joints_of(const Model& model, const State& state, const Contact
     for (int k = 0; k < 3; ++k)
       sets.unite(nodes.a[k], nodes.b[k]);
   });
-  std::vector<int> joint(model.node_position.size());
-  for (int node = 0; node < static_cast<int>(joint.size()); ++node)
-    joint[node] = sets.find(node);
-  return joint;
+  Joints joints;
+  joints.reserve(tets.size());
+  for (const SurfaceTet& tet : tets)
+    joints.push_back(
+        {sets.find(tet.nodes[0]), sets.find(tet.nodes[1]), sets.find(tet.nodes[2]), sets.find(tet.nodes[3])});
+  return joints;
 }
 
-bool may_touch(const TetContacts& of, const SurfaceTet& a, const SurfaceTet& b) {
-  if (!a.at_surface || !b.at_surface)
+bool may_touch(const TetContacts& of, int a, int b) {
+  if (!of.tets[a].at_surface || !of.tets[b].at_surface)
     return false;
-  for (const int m : a.nodes)
-    for (const int n : b.nodes)
-      if (of.joint[m] == of.joint[n])
+  for (const int m : of.joint[a])
+    for (const int n : of.joint[b])
+      if (m == n)
         return false;
   return true;
 }
@@ -87,16 +93,21 @@ void set_nodes(const Model& model, TetContacts& of) {
   of.nodes_begin.assign(1, 0);
   for (std::vector<int>& corner : of.corner)
     corner.resize(of.tets.size());
+  std::vector<char> has(model.node_position.size(), 0);
   for (std::size_t block = 0; block + 1 < of.tets_begin.size(); ++block) {
-    const auto first = static_cast<std::ptrdiff_t>(of.nodes.size());
     for (int t = of.tets_begin[block]; t < of.tets_begin[block + 1]; ++t) {
       const geom::Tet& nodes = of.tets[t].nodes = model.tets[of.tets[t].tet];
-      of.nodes.insert(of.nodes.end(), nodes.begin(), nodes.end());
-      for (int k = 0; k < 4; ++k)
+      for (int k = 0; k < 4; ++k) {
         of.corner[k][t] = nodes[k];
+        has[nodes[k]] = 1;
+      }
     }
-    std::sort(of.nodes.begin() + first, of.nodes.end());
-    of.nodes.erase(std::unique(of.nodes.begin() + first, of.nodes.end()), of.nodes.end());
+    if (of.tets_begin[block] < of.tets_begin[block + 1]) {
+      const Block& b = model.blocks[of.tets[of.tets_begin[block]].block];
+      for (int node = b.node_begin; node < b.node_end; ++node)
+        if (has[node] != 0)
+          of.nodes.push_back(node);
+    }
     of.nodes_begin.push_back(static_cast<int>(of.nodes.size()));
   }
   of.place.resize(model.node_position.size());
@@ -109,13 +120,30 @@ void set_places(const Model& model, const State& state, TetContacts& of) {
   }
 }
 
-// Whether it stands otherwise than before for what may touch.
-bool has_changed(const SurfaceTet& now, const std::vector<int>& joint, bool was_at_surface,
-                 const geom::Tet& nodes_before, const std::vector<int>& joint_before) {
-  bool same = now.at_surface == was_at_surface;
-  for (int k = 0; k < 4; ++k)
-    same = same && joint[now.nodes[k]] == joint_before[nodes_before[k]];
-  return !same;
+// Marks the tetrahedra with a corner whose joint has become several, or one with others. was: number of each before, -1: it was
+// not listed. Nodes may have other numbers than before.
+void mark_other_joints(const Joints& before, const Joints& now, const std::vector<int>& was,
+                       std::vector<char>& changed) {
+  constexpr int none = -1, several = -2;
+  std::array<std::vector<int>, 2> partner; // by the number of a joint before and now, that of the other
+  const auto meet = [&](std::vector<int>& of, int joint, int other) {
+    if (static_cast<std::size_t>(joint) >= of.size())
+      of.resize(static_cast<std::size_t>(joint) + 1, none);
+    of[joint] = of[joint] == none || of[joint] == other ? other : several;
+  };
+  const auto each = [&](const auto& visit) {
+    for (std::size_t t = 0; t < now.size(); ++t)
+      for (int k = 0; was[t] >= 0 && k < 4; ++k)
+        visit(t, before[was[t]][k], now[t][k]);
+  };
+  each([&](std::size_t, int then, int is) {
+    meet(partner[0], then, is);
+    meet(partner[1], is, then);
+  });
+  each([&](std::size_t t, int then, int is) {
+    if (partner[0][then] == several || partner[1][is] == several)
+      changed[t] = 1;
+  });
 }
 
 // Asks again what may touch of the pairs with a tetrahedron that has changed.
@@ -124,7 +152,7 @@ void ask_again(const std::vector<char>& changed, TetContacts& of) {
     const int a = of.pairs.a[p], b = of.pairs.b[p];
     if (!changed[a] && !changed[b])
       continue;
-    const bool free = may_touch(of, of.tets[a], of.tets[b]);
+    const bool free = may_touch(of, a, b);
     if (free == (of.may_touch[p] != 0))
       continue;
     of.may_touch[p] = static_cast<char>(free);
@@ -157,7 +185,7 @@ TetContacts near_among(const std::vector<TetPair>& pairs, const TetContacts& of)
       for (std::vector<float>& then : near.then)
         then.push_back(0);
       near.set(near.count() - 1, of.paths, rounded_down(apart));
-      found.may_touch.push_back(static_cast<char>(may_touch(of, of.tets[a], of.tets[b])));
+      found.may_touch.push_back(static_cast<char>(may_touch(of, a, b)));
     }
   }
   return found;
@@ -229,25 +257,24 @@ void list_tets(const Model& model, const State& state, ContactWork& work) {
   to.limit.assign(to.tets.size(), -1.0);
   to.boxes.resize(to.tets.size());
   to.way.assign(model.blocks.size(), geom::Vec3::Zero());
-  to.joint = joints_of(model, state, work);
+  to.joint = joints_of(model, state, work, to.tets);
   std::vector<char> changed(to.tets.size(), 0);
   if (const TetContacts* const before = work.tet_contacts.get(); before && before->skin == to.skin) {
     to.way = before->way;
     to.steps = before->steps;
     to.steps_then = before->steps_then;
-    std::vector<int> now(before->tets.size(), -1); // of those listed before
+    std::vector<int> now(before->tets.size(), -1), were(to.tets.size()); // of those listed before
     for (std::size_t t = 0; t < to.tets.size(); ++t) {
-      const int was = before->number[to.tets[t].tet];
+      const int was = were[t] = before->number[to.tets[t].tet];
       if (was < 0)
         continue;
       now[was] = static_cast<int>(t);
       to.paths.copy(was, before->paths, t);
       to.path_then[t] = before->path_then[was];
       to.boxes[t] = before->boxes[was];
-      const SurfaceTet& then = before->tets[was];
-      changed[t] =
-          static_cast<char>(has_changed(to.tets[t], to.joint, then.at_surface, then.nodes, before->joint));
+      changed[t] = static_cast<char>(to.tets[t].at_surface != before->tets[was].at_surface);
     }
+    mark_other_joints(before->joint, to.joint, were, changed);
     for (std::size_t p = 0; p < before->pairs.count(); ++p)
       if (const int a = now[before->pairs.a[p]], b = now[before->pairs.b[p]]; a >= 0 && b >= 0) {
         to.pairs.add(before->pairs, p, a, b);
@@ -278,13 +305,15 @@ bool told_anew(const Model& model, const State& state, ContactWork& work) {
   }
   if (blocks + 1 != of.nodes_begin.size())
     return false;
-  const std::vector<int> joint = std::exchange(of.joint, joints_of(model, state, work));
   std::vector<char> changed(of.tets.size(), 0);
   for (std::size_t t = 0; t < changed.size(); ++t) {
-    SurfaceTet& tet = of.tets[t];
-    const bool was = std::exchange(tet.at_surface, at_surface[t] != 0);
-    changed[t] = static_cast<char>(has_changed(tet, of.joint, was, tet.nodes, joint));
+    const bool now = at_surface[t] != 0;
+    changed[t] = static_cast<char>(std::exchange(of.tets[t].at_surface, now) != now);
   }
+  const Joints before = std::exchange(of.joint, joints_of(model, state, work, of.tets));
+  std::vector<int> same(of.tets.size());
+  std::iota(same.begin(), same.end(), 0);
+  mark_other_joints(before, of.joint, same, changed);
   ask_again(changed, of);
   std::fill(of.limit.begin(), of.limit.end(), -1.0);
   return true;
@@ -432,10 +461,7 @@ void take_tet_pairs(const Model& model, const State& state, std::shared_ptr<TetC
     of.paths.path[t] += rounding * moved;
     of.paths.now[3][t] = static_cast<float>(of.paths.swing[t] += rounding * moved);
   }
-  const std::array<std::vector<int>, 4> corner = of.corner;
   set_nodes(model, of);
-  if (of.corner != corner) // joints of other nodes than before
-    of.joint.assign(model.node_position.size(), -1);
   of.fresh = true;
   wake_contacts(state, of);
   work.tet_contacts = std::move(before);

@@ -37,8 +37,9 @@ struct TetContacts {
   // m, that each stays in until its path exceeds the skin, in the frame of its block.
   std::vector<geom::Box> boxes;
   std::vector<geom::Vec3> way; // m, of that frame, by block of the model
-  std::vector<int> joint;      // (n_nodes), the smallest node of the joint
-  double skin = 0;             // m, how far any may go before its pairs are found anew
+  std::vector<std::array<int, 4>>
+      joint;       // of the corners, the smallest node of the joint when contact was last told
+  double skin = 0; // m, how far any may go before its pairs are found anew
 
   // Pairs, into `tets`, a < b; by a, then b.
   WatchedPairs pairs;

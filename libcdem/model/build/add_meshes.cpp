@@ -1,7 +1,6 @@
 #include "libcdem/model/build/add_meshes.hpp"
 
 #include "libcdem/model/build/light_corners.hpp"
-#include "libcdem/model/build/split_mesh.hpp"
 #include "libgeom/mesh/order.hpp"
 
 #include <algorithm>
@@ -28,25 +27,28 @@ int chunk_size(const SplitMesh& split, const Bonding& bonding) {
 // Gives the nodes that a chunk uses their places: its own first, the others as they come.
 class Places {
 public:
-  explicit Places(std::size_t nodes) : place_(nodes, -1) {}
+  // Of chunks that use these nodes of the model alone.
+  explicit Places(Range nodes) : first_(nodes.begin), place_(static_cast<std::size_t>(nodes.size()), -1) {}
   void start(Range own) {
     for (const int node : others_)
-      place_[node] = -1;
+      place_[node - first_] = -1;
     others_.clear();
     own_ = own;
   }
   std::uint16_t of(int node) {
     if (node >= own_.begin && node < own_.end)
       return static_cast<std::uint16_t>(node - own_.begin);
-    if (place_[node] < 0) {
-      place_[node] = static_cast<int>(own_.size()) + static_cast<int>(others_.size());
+    int& place = place_[node - first_];
+    if (place < 0) {
+      place = static_cast<int>(own_.size()) + static_cast<int>(others_.size());
       others_.push_back(node);
     }
-    return static_cast<std::uint16_t>(place_[node]);
+    return static_cast<std::uint16_t>(place);
   }
   const std::vector<int>& others() const { return others_; }
 
 private:
+  std::int64_t first_;
   std::vector<int> place_, others_;
   Range own_;
 };
@@ -114,10 +116,12 @@ int nodes_end(const std::vector<geom::Tet>& tets, Range range, int begin) {
 void add_nodes(Model& model, const geom::TetMesh& mesh, const SplitMesh& split, int block) {
   const double density = model.bodies[model.blocks[block].body].material.density;
   const int first = model.blocks[block].node_begin;
-  const int first_original =
-      model.mesh.original.empty()
-          ? 0
-          : *std::max_element(model.mesh.original.begin(), model.mesh.original.end()) + 1;
+  int first_original = 0; // they ascend from block to block
+  if (!model.mesh.original.empty())
+    first_original = *std::max_element(model.mesh.original.begin() + model.blocks[block - 1].node_begin -
+                                           model.mesh.first_node,
+                                       model.mesh.original.end()) +
+                     1;
   for (const int original : split.original) {
     model.node_position.push_back(mesh.nodes[original]);
     model.mesh.original.push_back(first_original + original);
@@ -360,7 +364,7 @@ void add_convex_blocks(Model& model, const std::vector<geom::BlockMesh>& meshes)
       model.blocks.begin());
   model.mesh.original.resize(model.node_position.size() - static_cast<std::size_t>(model.mesh.first_node));
   std::iota(model.mesh.original.begin(), model.mesh.original.end(), 0);
-  Places places(model.node_position.size());
+  Places places({0, static_cast<std::int64_t>(model.node_position.size())});
   for (int begin = first; begin < n_blocks;) {
     const Block& head = model.blocks[begin];
     int end = begin + 1;
@@ -383,59 +387,72 @@ void add_convex_blocks(Model& model, const std::vector<geom::BlockMesh>& meshes)
 }
 
 void add_meshes(Model& model, std::vector<MeshSeed>&& seeds) {
-  const bool keeps_freed = std::any_of(model.bodies.begin(), model.bodies.end(),
-                                       [](const Body& body) { return body.bonding.is_cohesive(); });
   for (MeshSeed& seed : seeds) {
-    const geom::TetMesh mesh = seed.ordered ? std::move(seed.mesh) : geom::ordered(seed.mesh);
-    seed.mesh = {};
+    MeshPart part;
+    if (!seed.ordered)
+      seed.mesh = geom::ordered(seed.mesh);
+    const geom::TetMesh& mesh = seed.mesh;
     const std::vector<int> neighbours = geom::face_neighbours(mesh.tets, mesh.nodes.size());
     const std::vector<geom::InnerFace> inner = geom::inner_faces(mesh, neighbours);
     const Body& body = model.bodies[seed.body];
     if (!seed.ordered)
       require_fracture_energy(mesh, inner, body);
     const Splitting splitting{mesh, body.bonding, seed.freed};
-    const std::vector<BondedFace> bonded =
-        bonded_faces(mesh, inner, body, splitting, has_own_strengths(model));
-    SplitMesh split = split_mesh(mesh, inner, splitting);
-    const int chunk_tets = chunk_size(split, body.bonding);
-    const std::vector<std::int64_t> inner_nodes =
-        inner_first(split, bonded, chunk_tets, body.bonding.is_cohesive());
-
-    const int index = static_cast<int>(model.blocks.size());
-    Block block;
-    block.id = seed.id ? seed.id : model.next_id++;
-    block.body = seed.body;
-    block.unit = seed.unit;
-    block.meshed = true;
-    block.mass = geom::mass_properties(mesh);
-    block.size = block.first_size = std::cbrt(block.mass.volume);
-    block.node_begin = static_cast<int>(model.node_position.size());
-    block.node_end = block.node_begin + static_cast<int>(split.original.size());
-    block.tet_begin = static_cast<int>(model.tets.size());
-    block.tet_end = block.tet_begin + static_cast<int>(mesh.tets.size());
-    model.blocks.push_back(std::move(block));
-    add_nodes(model, mesh, split, index);
-    model.mesh.region.resize(static_cast<std::size_t>(model.blocks.back().tet_begin - model.mesh.first_tet),
-                             0);
-    model.mesh.region.insert(model.mesh.region.end(), mesh.region.begin(), mesh.region.end());
-    model.mesh.region.resize(static_cast<std::size_t>(model.blocks.back().tet_end - model.mesh.first_tet), 0);
-    if (keeps_freed) {
-      model.mesh.freed.resize(model.node_position.size() - static_cast<std::size_t>(model.mesh.first_node),
-                              0);
-      if (!seed.freed.empty())
-        for (std::size_t i = 0; i < split.original.size(); ++i)
-          model.mesh
-              .freed[static_cast<std::size_t>(model.blocks.back().node_begin - model.mesh.first_node) + i] =
-              seed.freed[split.original[i]];
-    }
-    for (const auto& [name, faces] : mesh.named)
-      for (const int face : faces)
-        model.mesh.named[{seed.body, name}].push_back(static_cast<int>(model.mesh.boundary.size()) + face);
-    add_boundary(model, geom::outer_faces(mesh, neighbours), index);
-    Places places(model.node_position.size());
-    add_chunks(model, bonded, inner_nodes, chunk_tets, index, places);
-    add_plastic_laws(model, index, mesh.region);
+    part.mass = geom::mass_properties(mesh);
+    part.bonded = bonded_faces(mesh, inner, body, splitting, has_own_strengths(model));
+    part.split = split_mesh(mesh, inner, splitting);
+    part.outer = geom::outer_faces(mesh, neighbours);
+    part.seed = std::move(seed);
+    add_part(model, std::move(part));
   }
+  end_parts(model);
+}
+
+void add_part(Model& model, MeshPart&& part) {
+  const MeshSeed& seed = part.seed;
+  const geom::TetMesh& mesh = seed.mesh;
+  SplitMesh& split = part.split;
+  const Body& body = model.bodies[seed.body];
+  const int chunk_tets = chunk_size(split, body.bonding);
+  const std::vector<std::int64_t> inner_nodes =
+      inner_first(split, part.bonded, chunk_tets, body.bonding.is_cohesive());
+
+  const int index = static_cast<int>(model.blocks.size());
+  Block block;
+  block.id = seed.id ? seed.id : model.next_id++;
+  block.body = seed.body;
+  block.unit = seed.unit;
+  block.meshed = true;
+  block.mass = part.mass;
+  block.size = block.first_size = std::cbrt(block.mass.volume);
+  block.node_begin = static_cast<int>(model.node_position.size());
+  block.node_end = block.node_begin + static_cast<int>(split.original.size());
+  block.tet_begin = static_cast<int>(model.tets.size());
+  block.tet_end = block.tet_begin + static_cast<int>(mesh.tets.size());
+  model.blocks.push_back(std::move(block));
+  add_nodes(model, mesh, split, index);
+  MeshData& data = model.mesh;
+  data.region.resize(static_cast<std::size_t>(model.blocks.back().tet_begin - data.first_tet), 0);
+  data.region.insert(data.region.end(), mesh.region.begin(), mesh.region.end());
+  data.region.resize(static_cast<std::size_t>(model.blocks.back().tet_end - data.first_tet), 0);
+  if (std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const Body& b) { return b.bonding.is_cohesive(); })) {
+    data.freed.resize(model.node_position.size() - static_cast<std::size_t>(data.first_node), 0);
+    if (!seed.freed.empty())
+      for (std::size_t i = 0; i < split.original.size(); ++i)
+        data.freed[static_cast<std::size_t>(model.blocks.back().node_begin - data.first_node) + i] =
+            seed.freed[split.original[i]];
+  }
+  for (const auto& [name, faces] : mesh.named)
+    for (const int face : faces)
+      data.named[{seed.body, name}].push_back(static_cast<int>(data.boundary.size()) + face);
+  add_boundary(model, part.outer, index);
+  Places places({model.blocks.back().node_begin, static_cast<std::int64_t>(model.node_position.size())});
+  add_chunks(model, part.bonded, inner_nodes, chunk_tets, index, places);
+  add_plastic_laws(model, index, mesh.region);
+}
+
+void end_parts(Model& model) {
   if (!model.mesh.plastic_law.empty())
     model.mesh.plastic_law.resize(model.mesh.batches.size() * lanes, -1);
   add_shares(model);

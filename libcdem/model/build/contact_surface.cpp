@@ -93,6 +93,21 @@ void add_edges(Model& model, int begin, int end) {
   s.edges.insert(s.edges.end(), found.begin(), found.end());
 }
 
+// Those of a block, whose outer triangles begin there, in a surface with other nodes.
+void keep_edges(const ContactSurface& before, int block, int begin, ContactSurface& s) {
+  const int was = before.block_begin[block];
+  const auto first = std::partition_point(before.edges.begin(), before.edges.end(),
+                                          [&](const ContactEdge& edge) { return edge.triangles[0] < was; });
+  for (auto edge = first; edge != before.edges.end() && edge->triangles[0] < before.block_begin[block + 1];
+       ++edge) {
+    const int triangle = edge->triangles[0] - was + begin;
+    const geom::Triangle& nodes = s.triangles[triangle].nodes;
+    s.edges.push_back({{nodes[edge->corner], nodes[(edge->corner + 1) % 3]},
+                       {triangle, edge->triangles[1] - was + begin},
+                       edge->corner});
+  }
+}
+
 // The blocks whose interface leaves them another contact than their bodies have.
 std::vector<BlockPairLaw> pair_laws(const Model& model) {
   std::vector<BlockPairLaw> pairs;
@@ -111,7 +126,7 @@ std::vector<BlockPairLaw> pair_laws(const Model& model) {
 
 } // namespace
 
-void build_surface(Model& model) {
+void build_surface(Model& model, const ContactSurface* before) {
   ContactSurface& s = model.surface;
   s.pairs = pair_laws(model);
   s.triangles.clear();
@@ -134,7 +149,10 @@ void build_surface(Model& model) {
       s.triangles.push_back(
           make_triangle(model, model.mesh.boundary[next].nodes, model.mesh.boundary[next].tet));
     const int outer_end = static_cast<int>(s.triangles.size());
-    add_edges(model, begin, outer_end);
+    if (before)
+      keep_edges(*before, b, begin, s);
+    else
+      add_edges(model, begin, outer_end);
     if (!model.blocks[b].convex() && touches_itself(model.blocks[b].body))
       add_inner_faces(model, b);
     raise_flat_ones(model, begin, outer_end);

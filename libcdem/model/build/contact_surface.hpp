@@ -8,8 +8,8 @@
 namespace cdem {
 
 // Fills model.surface for the laws in model.surface.joint. It stays empty when no two meshed blocks are there and no
-// body may touch itself.
-void build_surface(Model&);
+// body may touch itself. before: the surface of the same bodies with other nodes freed; its edges are the same.
+void build_surface(Model&, const ContactSurface* before = nullptr);
 
 // Edges of less than this turn are flat: what touches there touches the triangles.
 inline constexpr double least_edge_turn = 0.05; // radians

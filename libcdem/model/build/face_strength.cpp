@@ -55,6 +55,15 @@ FaceStrengths::FaceStrengths(const Body& body, const geom::TetMesh& mesh,
   }
 }
 
+FaceStrengths::FaceStrengths(const Body& body, const geom::TetMesh& mesh)
+    : FaceStrengths(body, mesh, scatter(body) ? geom::inner_faces(mesh) : std::vector<geom::InnerFace>{}) {}
+
+bool FaceStrengths::scatter(const Body& body) {
+  return body.joint.scatter.on() ||
+         std::any_of(body.region_laws.joints.begin(), body.region_laws.joints.end(),
+                     [](const Joint& joint) { return joint.scatter.on(); });
+}
+
 FaceStrength FaceStrengths::of(int tet_a, int tet_b) const {
   FaceStrength face;
   face.joint = body_.region_laws.between(mesh_.region[tet_a], mesh_.region[tet_b]);

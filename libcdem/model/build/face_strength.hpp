@@ -28,10 +28,12 @@ struct FaceStrength {
 class FaceStrengths {
 public:
   FaceStrengths(const Body&, const geom::TetMesh&, const std::vector<geom::InnerFace>&);
+  FaceStrengths(const Body&, const geom::TetMesh&); // finds the inner faces itself, where a strength scatters
   FaceStrength of(int tet_a, int tet_b) const;
   double correlation_length(int joint) const; // m, of the body's region_laws; -1: of the body's joint
 
 private:
+  static bool scatter(const Body&);
   std::vector<double> draws(int law, const std::vector<geom::InnerFace>&) const;
   void spread(std::vector<double>& factor, double length) const;
 

@@ -52,6 +52,144 @@ Model without_meshes(const Model& old, std::size_t first) {
   return model;
 }
 
+template <class Nodes, class Is>
+bool any(const Nodes& nodes, const Is& is) {
+  return std::any_of(nodes.begin(), nodes.end(), is);
+}
+
+int corner_of(const geom::Tet& tet, int node) {
+  return static_cast<int>(std::find(tet.begin(), tet.end(), node) - tet.begin());
+}
+
+// The face of a tet that has these nodes: that opposite to the corner that is left.
+int face_of(const geom::Tet& tet, const geom::Triangle& nodes) {
+  int left = 0 + 1 + 2 + 3;
+  for (const int node : nodes)
+    left -= corner_of(tet, node);
+  return left;
+}
+
+BondedFace face_at(const Model& model, const MeshChunk& chunk, std::int64_t batch, int lane, int first) {
+  const MeshData& data = model.mesh;
+  const FaceNodes nodes = face_nodes(data, chunk, batch, lane);
+  const FaceTets& tets = data.face_tets[batch * lanes + lane];
+  BondedFace face;
+  face.kn = data.faces[batch].kn[lane];
+  face.area = data.faces[batch].area[lane];
+  for (const int side : {0, 1}) {
+    const int tet = side == 0 ? tets.tet_a : tets.tet_b;
+    const geom::Triangle& own = side == 0 ? nodes.a : nodes.b;
+    face.face.tets[side] = tet - model.blocks[chunk.block].tet_begin;
+    face.face.faces[side] = face_of(model.tets[tet], own);
+    for (int i = 0; i < 3; ++i)
+      face.face.corners[side][i] = corner_of(model.tets[tet], own[i]);
+  }
+  for (int i = 0; i < 3; ++i)
+    face.face.nodes[i] = data.original[nodes.a[i] - data.first_node] - first;
+  if (!data.strength.empty()) {
+    const FaceStrengthBatch& strength = data.strength[batch];
+    face.strength = {strength.joint[lane], strength.tensile_strength[lane], strength.cohesion[lane],
+                     strength.tan_friction[lane]};
+  }
+  return face;
+}
+
+// The bonded faces of a block, in the numbers of the mesh it was made of; first: of the originals of its nodes.
+std::vector<BondedFace> faces_of(const Model& model, int block, int first) {
+  const std::vector<MeshChunk>& chunks = model.mesh.chunks; // by block
+  std::vector<BondedFace> faces;
+  for (auto chunk = std::partition_point(chunks.begin(), chunks.end(),
+                                         [&](const MeshChunk& c) { return c.block < block; });
+       chunk != chunks.end() && chunk->block == block; ++chunk)
+    for (int face = 0; face < chunk->faces; ++face)
+      faces.push_back(face_at(model, *chunk, chunk->face_batches.begin + face / lanes, face % lanes, first));
+  return faces;
+}
+
+// Splits a part at the nodes that are freed or joined, in the numbers of its mesh. The tets around them have all that changes.
+void split_around(const Model& old, const std::vector<char>& was_freed, const std::vector<int>& around,
+                  MeshPart& part) {
+  const std::vector<char>& freed = part.seed.freed;
+  const geom::TetMesh& mesh = part.seed.mesh;
+  const Body& body = old.bodies[part.seed.body];
+  geom::TetMesh own{mesh.nodes, {}, {}};
+  for (const int tet : around) {
+    own.tets.push_back(mesh.tets[tet]);
+    own.region.push_back(mesh.region[tet]);
+  }
+  const std::vector<geom::InnerFace> inner = geom::inner_faces(own);
+  const Splitting splitting{own, body.bonding, freed};
+  const SplitMesh split = split_mesh(own, inner, splitting);
+  const auto first_new = static_cast<int>(part.split.original.size());
+  part.split.original.insert(part.split.original.end(), split.original.begin(), split.original.end());
+  for (std::size_t i = 0; i < around.size(); ++i)
+    for (int k = 0; k < 4; ++k)
+      if (freed[own.tets[i][k]] != was_freed[own.tets[i][k]])
+        part.split.tets[around[i]][k] = first_new + split.tets[i][k];
+
+  const auto parted_by = [](const std::vector<char>& nodes) {
+    return [&nodes](const BondedFace& f) { return any(f.face.nodes, [&](int n) { return nodes[n] != 0; }); };
+  };
+  const auto erase = [](std::vector<BondedFace>& faces, const auto& is) {
+    faces.erase(std::remove_if(faces.begin(), faces.end(), is), faces.end());
+  };
+  std::vector<BondedFace> more = bonded_faces(own, inner, body, splitting, false);
+  erase(more, parted_by(was_freed));
+  erase(part.bonded, [&](const BondedFace& f) { return !parted_by(freed)(f); });
+  for (BondedFace& f : more)
+    for (int& tet : f.face.tets)
+      tet = around[tet];
+  if (!more.empty() && has_own_strengths(old)) {
+    const FaceStrengths strengths(body, mesh);
+    for (BondedFace& f : more)
+      f.strength = strengths.of(f.face.tets[0], f.face.tets[1]);
+  }
+  const auto middle = static_cast<std::ptrdiff_t>(part.bonded.size());
+  part.bonded.insert(part.bonded.end(), more.begin(), more.end());
+  std::inplace_merge(part.bonded.begin(), part.bonded.begin() + middle, part.bonded.end(),
+                     [](const BondedFace& a, const BondedFace& b) {
+                       return std::make_pair(a.face.tets[0], a.face.faces[0]) <
+                              std::make_pair(b.face.tets[0], b.face.faces[0]);
+                     });
+}
+
+// A block of a model with more or fewer of its nodes freed. changed: gets the tets of the model around these nodes.
+MeshPart freed_part(const Model& old, int block, const std::vector<char>& freed,
+                    const std::vector<char>& joined, std::vector<int>& changed) {
+  const Block& b = old.blocks[block];
+  const MeshData& data = old.mesh;
+  MeshPart part;
+  part.seed = mesh_seed(old, block, freed, joined);
+  part.mass = b.mass;
+  const int* const original = data.original.data() - data.first_node;
+  const int first = *std::min_element(original + b.node_begin, original + b.node_end);
+  std::vector<char> was_freed(part.seed.freed.size(), 0);
+  for (int node = b.node_begin; node < b.node_end; ++node) {
+    part.split.original.push_back(original[node] - first);
+    if (!was_freed.empty())
+      was_freed[original[node] - first] = data.freed[node - data.first_node];
+  }
+  std::vector<int> around;
+  for (int tet = b.tet_begin; tet < b.tet_end; ++tet) {
+    geom::Tet nodes = old.tets[tet];
+    for (int& node : nodes)
+      node -= b.node_begin;
+    part.split.tets.push_back(nodes);
+    const geom::Tet& originals = part.seed.mesh.tets[tet - b.tet_begin];
+    if (!was_freed.empty() && any(originals, [&](int n) { return part.seed.freed[n] != was_freed[n]; })) {
+      around.push_back(tet - b.tet_begin);
+      changed.push_back(tet);
+    }
+  }
+  part.bonded = faces_of(old, block, first);
+  if (!around.empty())
+    split_around(old, was_freed, around, part);
+  each_boundary_triangle(old, block, [&](int, const BoundaryTriangle& triangle) {
+    part.outer.push_back({{}, triangle.tet - b.tet_begin, face_of(old.tets[triangle.tet], triangle.nodes)});
+  });
+  return part;
+}
+
 } // namespace
 
 MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed,
@@ -96,30 +234,31 @@ MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed,
   return seed;
 }
 
-Model with_freed_nodes(const Model& old, const std::vector<char>& freed, const std::vector<char>& joined) {
+FreedModel with_freed_nodes(const Model& old, const std::vector<char>& freed,
+                            const std::vector<char>& joined) {
   const auto first = static_cast<std::size_t>(
       std::find_if(old.blocks.begin(), old.blocks.end(), [](const Block& b) { return !b.convex(); }) -
       old.blocks.begin());
-  Model model = without_meshes(old, first);
+  FreedModel now{without_meshes(old, first), {}};
+  Model& model = now.model;
   // What names places of convex blocks stays.
   for (const auto& [key, faces] : old.mesh.named)
     for (const int face : faces)
       if (face < static_cast<int>(model.mesh.boundary.size()))
         model.mesh.named[key].push_back(face);
-  std::vector<MeshSeed> seeds;
-  for (std::size_t b = first; b < old.blocks.size(); ++b)
-    seeds.push_back(mesh_seed(old, static_cast<int>(b), freed, joined));
-  add_meshes(model, std::move(seeds));
-  for (std::size_t b = first; b < old.blocks.size(); ++b)
+  for (std::size_t b = first; b < old.blocks.size(); ++b) {
+    add_part(model, freed_part(old, static_cast<int>(b), freed, joined, now.tets));
     model.blocks[b].rigid = old.blocks[b].rigid;
+  }
+  end_parts(model);
   model.bond_begin.resize(model.node_position.size() + 1,
                           model.bond_begin.empty() ? 0 : model.bond_begin.back());
   // Springs of interfaces are on nodes before the mesh parts.
   for (std::size_t node = static_cast<std::size_t>(old.blocks[first].node_begin) + 1;
        node < model.bond_begin.size(); ++node)
     model.bond_begin[node] = static_cast<std::int64_t>(model.spring_ends.size());
-  build_surface(model);
-  return model;
+  build_surface(model, &old.surface);
+  return now;
 }
 
 } // namespace cdem

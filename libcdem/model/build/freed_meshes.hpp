@@ -13,7 +13,11 @@ MeshSeed mesh_seed(const Model& old, int block, const std::vector<char>& freed =
 
 // All but the mesh parts stays. Tets, outer triangles and blocks keep their numbers; nodes and freed faces get new ones.
 // freed: per node of `old`, 1 for those to be freed beside those that are. joined: likewise, 1 for those to be freed no more.
-Model with_freed_nodes(const Model& old, const std::vector<char>& freed,
-                       const std::vector<char>& joined = {});
+struct FreedModel {
+  Model model;
+  std::vector<int> tets; // ascending: those around nodes that have been freed or joined
+};
+FreedModel with_freed_nodes(const Model& old, const std::vector<char>& freed,
+                            const std::vector<char>& joined = {});
 
 } // namespace cdem

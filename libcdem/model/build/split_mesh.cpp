@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <numeric>
 #include <optional>
 
 namespace cdem {
@@ -125,13 +124,16 @@ void require_fracture_energy(const geom::TetMesh& mesh, const std::vector<geom::
 
 std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<BondedFace>& faces, int chunk_tets,
                                       bool both_sides) {
-  const std::size_t nodes = split.original.size();
-  std::vector<int> owner(nodes, -1);
-  std::vector<char> shared(nodes, 0);
+  const std::size_t copies = split.original.size();
+  std::vector<int> owner(copies, -1), order; // as the tets come: so the nodes of a chunk follow each other
+  std::vector<char> shared(copies, 0);
+  order.reserve(copies);
   const auto touch = [&](int node, int tet) {
     const int chunk = tet / chunk_tets;
-    if (owner[node] < 0)
+    if (owner[node] < 0) {
       owner[node] = chunk;
+      order.push_back(node);
+    }
     shared[node] |= static_cast<char>(owner[node] != chunk);
   };
   for (int t = 0; t < static_cast<int>(split.tets.size()); ++t)
@@ -142,16 +144,21 @@ std::vector<std::int64_t> inner_first(SplitMesh& split, const std::vector<Bonded
       for (const int corner : f.face.corners[side])
         touch(split.tets[f.face.tets[side]][corner], f.face.tets[1 - side]);
 
-  std::vector<int> order(nodes), number(nodes), original(nodes);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return owner[a] != owner[b] ? owner[a] < owner[b] : shared[a] < shared[b];
-  });
-  std::vector<std::int64_t> inner((split.tets.size() + chunk_tets - 1) / chunk_tets);
-  for (std::size_t i = 0; i < nodes; ++i) {
-    number[order[i]] = static_cast<int>(i);
-    original[i] = split.original[order[i]];
-    inner[owner[order[i]]] += shared[order[i]] ? 0 : 1;
+  std::vector<std::int64_t> inner;
+  for (auto begin = order.begin(); begin != order.end();) {
+    const int chunk = owner[*begin];
+    const auto end = std::find_if(begin, order.end(), [&](int node) { return owner[node] != chunk; });
+    const auto middle = std::stable_partition(begin, end, [&](int node) { return shared[node] == 0; });
+    inner.resize(static_cast<std::size_t>(chunk)); // chunks between use no node first
+    inner.push_back(middle - begin);
+    begin = end;
+  }
+  inner.resize((split.tets.size() + chunk_tets - 1) / chunk_tets);
+  std::vector<int> number(copies), original;
+  original.reserve(order.size());
+  for (const int node : order) {
+    number[node] = static_cast<int>(original.size());
+    original.push_back(split.original[node]);
   }
   split.original = std::move(original);
   for (geom::Tet& tet : split.tets)

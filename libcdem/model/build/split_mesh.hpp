@@ -10,7 +10,7 @@ namespace cdem {
 
 // A mesh whose nodes are split along its bonded faces, in its own numbers.
 struct SplitMesh {
-  std::vector<geom::Tet> tets; // over copies of nodes, numbered by first touch
+  std::vector<geom::Tet> tets; // over copies of nodes
   std::vector<int> original;   // per copy: node of the mesh
 };
 
@@ -43,7 +43,8 @@ std::vector<BondedFace> bonded_faces(const geom::TetMesh&, const std::vector<geo
 // Throws geom::InputError where a face that may crack would store more at its strength than its fracture energy.
 void require_fracture_energy(const geom::TetMesh&, const std::vector<geom::InnerFace>&, const Body&);
 
-// Numbers the copies again, chunk by chunk: first those that no other chunk uses. Returns their number for each chunk.
+// Numbers the copies that tets have again, chunk by chunk: first those that no other chunk uses. Returns their number for each
+// chunk.
 // both_sides: the tets of side b ask for the nodes of side a too.
 std::vector<std::int64_t> inner_first(SplitMesh&, const std::vector<BondedFace>&, int chunk_tets,
                                       bool both_sides);
