@@ -143,11 +143,22 @@ void FoundContacts::add_at_nodes(const ContactForce& f) {
     for (int i = 0; i < 4; ++i)
       if (arms.on_source[i] != 0)
         add(arms.source[i], f.source_block, arms.on_source[i] * (f.normal + f.shear),
-            arms.on_source[i] * f.stiffness);
+            std::abs(arms.on_source[i]) * f.stiffness);
   if (model_.blocks[f.target_block].rigid < 0)
     for (int i = 0; i < 4; ++i)
       add(arms.target[i], f.target_block, -arms.normal[i] * f.normal - arms.shear[i] * f.shear,
           std::max(arms.normal[i], std::abs(arms.shear[i])) * f.stiffness);
+  if (f.moment.isZero(0))
+    return;
+  const auto turn = [&](const geom::Tet& tet, int block, const geom::Vec3& moment) {
+    if (model_.blocks[block].rigid >= 0)
+      return;
+    const std::array<geom::Vec3, 4> forces = forces_of_moment(model_, state_, tet, moment);
+    for (int i = 0; i < 4; ++i)
+      add(tet[i], block, forces[i], 0);
+  };
+  turn(arms.source, f.source_block, f.moment);
+  turn(arms.target, f.target_block, -f.moment);
 }
 
 RigidSums& FoundContacts::touched(int rigid) {
@@ -168,11 +179,11 @@ void FoundContacts::add_on_rigid(const ContactForce& f) {
       if (arms.on_source[i] != 0) {
         const geom::Vec3 here = arm(arms.source[i], rigid);
         at += arms.on_source[i] * here;
-        frequency2 += arms.on_source[i] * rigid_inverse_mass(model_.rigid[rigid], here.norm());
+        frequency2 += std::abs(arms.on_source[i]) * rigid_inverse_mass(model_.rigid[rigid], here.norm());
       }
     RigidSums& sums = touched(rigid);
     add_exactly(f.normal + f.shear, sums.force);
-    add_exactly(at.cross(f.normal + f.shear), sums.torque);
+    add_exactly(at.cross(f.normal + f.shear) + f.moment, sums.torque);
     sums.frequency2.add(2 * f.stiffness * frequency2);
   }
   if (const int rigid = model_.blocks[f.target_block].rigid; rigid >= 0) {
@@ -187,7 +198,7 @@ void FoundContacts::add_on_rigid(const ContactForce& f) {
     }
     RigidSums& sums = touched(rigid);
     add_exactly(-f.normal - f.shear, sums.force);
-    add_exactly(-pressed.cross(f.normal) - sheared.cross(f.shear), sums.torque);
+    add_exactly(-pressed.cross(f.normal) - sheared.cross(f.shear) - f.moment, sums.torque);
     sums.frequency2.add(2 * f.stiffness * frequency2);
   }
 }

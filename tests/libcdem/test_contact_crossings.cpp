@@ -1,5 +1,7 @@
 // Contact of bars that cross on their edges or lie across each other, of blocks in rows, and of a lone corner.
 #include "libcdem/contact/contact_forces.hpp"
+#include "libcdem/element/rigid_motion.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "tests/libcdem/boxes.hpp"
@@ -116,6 +118,140 @@ TEST_CASE("contact: two bars ridge on ridge stop each other at the same depth at
   CHECK(z > 0.99 * speed);
   CHECK(std::hypot(x, y) < 1e-3 * speed);
   CHECK(std::hypot(spin[0], spin[1], spin[2]) < 1e-3 * mass * speed);
+}
+
+namespace {
+
+// Two bars of 2 x 0.4 x 0.4 m of eight cells, ridge on ridge, turned by an angle. The upper one falls on the lower one.
+struct Ridges {
+  static constexpr double half = 0.4 * 0.70710678118654752, gap = 2e-3, speed = 0.6, cell = 0.25, area = 0.05,
+                          stiffness = 1e10;
+
+  // sideways: m, along the lower ridge.
+  Ridges(double angle, double sideways, cdem::Element element, cdem::Element of_lower = cdem::Element::rigid,
+         double friction_angle = 0)
+      : s(build({bar("lower", Mat3::Identity(), 0, 0, of_lower),
+                 bar("upper", rotation({0, 0, 1}, angle * degree), sideways, 2 * half + gap, element)},
+                {{"lower", "upper", law(friction_angle)}})) {
+    if (element == cdem::Element::rigid)
+      s.state.rigid[1].velocity = {0, 0, -speed};
+    for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+      if (block_of(s.model, i) == 1)
+        s.state.velocity[i] = node({0, 0, -speed});
+  }
+
+  // Returns the largest depth.
+  double meet(double duration) {
+    double lowest = 10;
+    cdem::RunOptions options;
+    options.duration = duration;
+    options.callback_every = 1;
+    options.callback = [&] { lowest = std::min(lowest, centroid(s, 1).z()); };
+    s.run(options);
+    return 2 * half - lowest;
+  }
+
+  // Part of half the stiffness of a crossing, times the square of the depth, that is stored: the overlap of the ridges, over that
+  // within half a cell from where it is deepest.
+  static double stored(double angle, double depth) {
+    const auto overlap =
+        [&](double within) { // of the quadratic depth^2 - (x tan angle)^2, to both sides, over depth^2
+          const double slope = std::tan(angle * degree) / depth, to = std::min(within, 1 / slope);
+          return 2 * to * (1 - slope * slope * to * to / 3);
+        };
+    return overlap(1) / overlap(0.5 * cell);
+  }
+  static double mass() { return rock().density * 2 * 0.4 * 0.4; }
+  // Depth, m, at which an energy is stored that the bar had.
+  static double depth(double angle) {
+    const double crossing = 0.5 * stiffness * 2 * area / 3; // N/m
+    double at = 1e-3;
+    for (int i = 0; i < 50; ++i)
+      at = std::sqrt(mass() * speed * speed / (crossing * stored(angle, at)));
+    return at;
+  }
+
+  System s;
+
+private:
+  static cdem::Joint law(double friction_angle) {
+    cdem::Joint law = friction(friction_angle);
+    law.normal_stiffness = stiffness;
+    return law;
+  }
+  static cdem::BodySpec bar(const char* name, const Mat3& turn, double sideways, double up,
+                            cdem::Element element) {
+    cdem::BodySpec body = meshed(
+        name, box_at({2, 0.4, 0.4}, {8, 1, 1}, turn * rotation({1, 0, 0}, 45 * degree), {sideways, 0, up}));
+    body.element = element;
+    return body;
+  }
+};
+
+} // namespace
+
+TEST_CASE("contact: ridges of several cells stop each other without loss at any angle", "[contact][edges]") {
+  const double angle = GENERATE(0.0, 0.01, 0.05, 0.3, 0.57, 1.0, 5.0, 45.0, 90.0);
+  const double sideways = GENERATE(0.0, 0.03, 0.125); // at, beside and between the nodes of the other one
+  CAPTURE(angle, sideways);
+  Ridges bars(angle, sideways, cdem::Element::rigid);
+  bars.s.hold(body_of("lower"), "xyz");
+  const double before = cdem::kinetic_energy(bars.s.model, bars.s.state), depth = bars.meet(0.016);
+  CHECK(bars.s.state.contacts.empty());
+  CHECK(depth == Approx(Ridges::depth(angle)).epsilon(0.05));
+  CHECK(cdem::kinetic_energy(bars.s.model, bars.s.state) == Approx(before).epsilon(1e-2));
+  CHECK(std::abs(bars.s.state.spent.friction) < 1e-5 * before);
+  // A ridge that lies on another tends to slide off it, and where the two are shifted they do not reach equally far to both sides.
+  const auto& [x, y, z] = bars.s.state.rigid[1].velocity;
+  if (sideways == 0 || angle == 0 || angle > 0.04)
+    CHECK(std::hypot(x, y) < 1e-3 * Ridges::speed);
+  CHECK(z > 0.7 * Ridges::speed);
+}
+
+TEST_CASE("contact: a deformable ridge that falls on another keeps its energy", "[contact][edges]") {
+  const double angle = GENERATE(0.0, 0.05, 0.3, 5.0);
+  CAPTURE(angle);
+  Ridges bars(angle, 0.03, cdem::Element::finite_volume);
+  bars.s.hold(body_of("lower"), "xyz");
+  const double before = cdem::kinetic_energy(bars.s.model, bars.s.state), depth = bars.meet(0.016);
+  CHECK(bars.s.state.contacts.empty());
+  CHECK(depth == Approx(Ridges::depth(angle)).epsilon(0.1));
+  CHECK(cdem::energy(bars.s.model, bars.s.state).total() == Approx(before).epsilon(1e-2));
+  const Vec3 momentum = testing::momentum(bars.s, Places::present).linear / (Ridges::mass() * Ridges::speed);
+  CHECK(std::hypot(momentum.x(), momentum.y()) < 5e-3); // its tetrahedra are not symmetric, and it slides off
+}
+
+TEST_CASE("contact: ridges that rub on each other at a small angle keep their angular momentum",
+          "[contact][edges]") {
+  const auto element = GENERATE(cdem::Element::rigid, cdem::Element::finite_volume);
+  Ridges bars(0.2, 0.03, element, element, 30);
+  System& s = bars.s;
+  const Vec3 past(0.2, 0.05, 0); // m/s
+  for (int i = 0; i < static_cast<int>(s.state.velocity.size()); ++i)
+    if (block_of(s.model, i) == 1)
+      s.state.velocity[i] = node(past - Vec3(0, 0, Ridges::speed));
+  const auto all = [&] {
+    if (element == cdem::Element::finite_volume)
+      return momentum(s, Places::present);
+    Momentum sum;
+    for (std::size_t i = 0; i < s.state.rigid.size(); ++i) {
+      const Vec3 linear = s.model.rigid[i].mass * cdem::vec(s.state.rigid[i].velocity);
+      sum.linear += linear;
+      sum.angular +=
+          cdem::vec(s.state.rigid[i].centroid).cross(linear) + cdem::vec(s.state.rigid[i].angular_momentum);
+    }
+    return sum;
+  };
+  if (element == cdem::Element::rigid)
+    s.state.rigid[1].velocity = {past.x(), past.y(), -Ridges::speed};
+  const Momentum before = all();
+  bars.meet(0.012);
+  const Momentum after = all();
+  const double scale = Ridges::mass() * Ridges::speed;
+  CHECK(s.state.contacts.empty());
+  CHECK(s.state.spent.friction > 0.01 * 0.5 * scale * Ridges::speed);
+  CHECK((after.linear - before.linear).norm() < 1e-10 * scale);
+  CHECK((after.angular - before.angular).norm() < 1e-10 * scale);
 }
 
 TEST_CASE("contact: bars that cross on their edges at a mesh node part straight", "[contact][edges]") {

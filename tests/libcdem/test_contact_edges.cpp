@@ -119,12 +119,12 @@ TEST_CASE("contact: edges in line part along the direction in which their overla
       throw std::runtime_error("no edge at the tip");
     };
     const cdem::NearestOfEdges nearest = cdem::nearest_of_edges(s.model, s.state, tip(1), tip(0));
-    REQUIRE(nearest.normal);
+    REQUIRE(nearest.stretch);
     const double small = 1e-6;
     const Vec3 grows((area({small, 0}) - area({-small, 0})) / (2 * small), 0,
                      (area({0, small}) - area({0, -small})) / (2 * small));
     CAPTURE(lower[0], lower[1], upper[0], upper[1], shift[0], shift[1]);
-    CHECK((*nearest.normal + grows.normalized()).norm() < 1e-3);
+    CHECK((nearest.stretch->normal + grows.normalized()).norm() < 1e-3);
   }
 }
 

@@ -55,10 +55,12 @@ bool may_touch(const Bar& a, const Bar& b, double depth) {
   const double distance = (a.x0 + at.s * (a.x1 - a.x0) - b.x0 - at.t * (b.x1 - b.x0)).norm();
   if (distance > depth + a.skin + b.skin)
     return false;
+  if (sine - turns < parallel_edges &&
+      normal_between(a.into, b.into, a.along,
+                     clear_of_faces - 2 * turns - std::max(a.most_into_turns(), b.most_into_turns())))
+    return true;
   if (sine + turns < parallel_edges)
-    return normal_between(a.into, b.into, a.along,
-                          clear_of_faces - 2 * turns - std::max(a.most_into_turns(), b.most_into_turns()))
-        .has_value();
+    return false;
   if (sine < 4 * turns)
     return true; // their common normal may be anything
   const geom::Vec3 normal = across / sine;

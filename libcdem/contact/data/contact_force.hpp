@@ -13,7 +13,7 @@ namespace cdem {
 
 // Where a contact acts: at a place of the source's triangle, and on the corners of the tet behind the target's. The
 // normal force acts at the target's nearest place, along the line of the two; the shear force at the source's place on
-// both, so that neither turns anything.
+// both, so that neither turns anything. Nearly parallel edges have one place, on the tets behind both.
 struct ContactArms {
   std::array<int, 4> source{}, target{};
   std::array<double, 4> on_source{};       // weights, their sum 1
@@ -24,6 +24,7 @@ struct ContactForce {
   ContactArms arms;
   int source_block = 0, target_block = 0;
   geom::Vec3 normal = geom::Vec3::Zero(), shear = geom::Vec3::Zero(); // N, on the source
+  geom::Vec3 moment = geom::Vec3::Zero();                             // N m, on the source, beside them
   double stiffness = 0;                                               // N/m
   double friction = 0, damping = 0;                                   // J, this step
 };

@@ -19,33 +19,6 @@ geom::Vec3 middle_of_fan(const std::array<geom::Vec3, 2>& into) {
   return -(into[0].normalized() + into[1].normalized()).normalized();
 }
 
-// A linear function on a stretch [x0, x1].
-struct Linear {
-  double at_0 = 0, slope = 0;
-  double operator()(double x) const { return at_0 + slope * x; }
-};
-
-// Area and moment of the positive part of functions that are linear between two places.
-struct Positive {
-  double area = 0, moment = 0;
-
-  void add(std::array<double, 2> at_ends, double from, double to) {
-    auto& [a, b] = at_ends;
-    if (a <= 0 && b <= 0)
-      return;
-    if (a < 0) {
-      from += (to - from) * a / (a - b);
-      a = 0;
-    } else if (b < 0) {
-      to = from + (to - from) * a / (a - b);
-      b = 0;
-    }
-    const double length = to - from;
-    area += 0.5 * length * (a + b);
-    moment += length * (0.5 * from * (a + b) + length * (a + 2 * b) / 6);
-  }
-};
-
 // The wedge behind an edge, seen along the edge: unit vectors along its two faces, and the outward normals of the two.
 struct Wedge {
   std::array<geom::Vec3, 2> face, outward;
@@ -60,90 +33,186 @@ Wedge wedge_of(const std::array<geom::Vec3, 2>& into, const geom::Vec3& along) {
   return w;
 }
 
-// m, how deep the tip of each wedge lies under the two faces of the other. way: m, from the tip of e to that of f.
-struct TipDepths {
-  std::array<Linear, 2> of_e, of_f;
+// The line between the two points where the outlines of two wedges cross that overlap.
+struct Chord {
+  geom::Vec3 across =
+      geom::Vec3::Zero(); // m, at right angles to it and as long; on the side of the middle of both fans
+  geom::Vec3 middle = geom::Vec3::Zero(); // m, from the tip of e
+};
 
-  TipDepths(const Wedge& e, const Wedge& f, const geom::Vec3& way, const geom::Vec3& turns) {
-    for (int i = 0; i < 2; ++i) {
-      of_e[i] = {way.dot(f.outward[i]), turns.dot(f.outward[i])};
-      of_f[i] = {-way.dot(e.outward[i]), -turns.dot(e.outward[i])};
-    }
-  }
-  // The larger depth of the two tips, each under the nearer face of the other wedge.
-  double at(double x) const {
-    return std::max(std::min(of_e[0](x), of_e[1](x)), std::min(of_f[0](x), of_f[1](x)));
-  }
-  // Between these places the depth under the nearer face is linear (ascending).
-  std::array<double, 8> breaks(double from, double to) const {
-    std::array<double, 8> places{from, to};
-    const std::array<Linear, 4> all{of_e[0], of_e[1], of_f[0], of_f[1]};
-    std::size_t n = 2;
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < i; ++j) {
-        const double slope = all[i].slope - all[j].slope;
-        const double x = slope == 0 ? from : (all[j].at_0 - all[i].at_0) / slope;
-        places[n++] = std::clamp(x, from, to);
-      }
-    std::sort(places.begin(), places.end());
-    return places;
+// What a stretch of two nearly parallel edges stores, over its stiffness, and how that changes as f moves past e: as if a load
+// stood on the stretch.
+struct LineLoad {
+  double energy = 0;                      // as the integral of depth^2 over the stretch
+  geom::Vec3 force = geom::Vec3::Zero();  // its derivative by the way from e to f
+  geom::Vec3 moment = geom::Vec3::Zero(); // of that load, its places along e as arms
+  double roll = 0;                        // of the load, about e
+
+  void add(double part, const LineLoad& other) {
+    energy += part * other.energy;
+    force += part * other.force;
+    moment += part * other.moment;
+    roll += part * other.roll;
   }
 };
 
-// The direction along which the overlap of two wedges shrinks the fastest: at right angles to the line between the two
-// points where their outlines cross (Feng and Owen 2004, Eng. Comput. 21, 265-277: their potential is the area of the
-// overlap). It lies in the fans of both, whatever the angles of the wedges. between: on its side.
-geom::Vec3 parting(const Wedge& e, const Wedge& f, const geom::Vec3& way, const geom::Vec3& along,
-                   const geom::Vec3& between) {
-  std::optional<geom::Vec3> first;
-  geom::Vec3 chord = geom::Vec3::Zero();
-  for (const geom::Vec3& r : e.face)
-    for (const geom::Vec3& g : f.face) {
-      const double sine = along.dot(r.cross(g)), s = along.dot(way.cross(g)) / sine,
-                   t = along.dot(way.cross(r)) / sine;
-      if (!(s >= 0 && t >= 0) || !std::isfinite(s + t))
-        continue;
-      const geom::Vec3 crossing = s * r;
-      if (!first)
-        first = crossing;
-      else if ((crossing - *first).squaredNorm() > chord.squaredNorm())
-        chord = crossing - *first;
-    }
-  const geom::Vec3 normal = along.cross(chord);
-  const double size = normal.norm();
-  if (!(size > 0))
-    return between;
-  return normal / (normal.dot(between) < 0 ? -size : size);
+// The overlap of two nearly parallel edges, cut at right angles to the first: at each place x along it the overlap of two
+// wedges. Where their tips meet in the middle of both fans, twice `scale` times its area is the square of the depth.
+class Overlap {
+public:
+  Overlap(const Wedge& e, const Wedge& f, const geom::Vec3& apart, const geom::Vec3& turns,
+          const geom::Vec3& along, const geom::Vec3& between)
+      : e_(e), f_(f), apart_(apart), turns_(turns), along_(along), between_(between),
+        scale_(1 / chord(between).across.dot(between)) {
+    for (int i = 0; i < 2; ++i)
+      for (const auto& [slope, at_0] :
+           {std::pair(turns.dot(f.outward[i]), apart.dot(f.outward[i])), // the tip of e passes a face of f
+            std::pair(turns.dot(e.outward[i]), apart.dot(e.outward[i]))})
+        if (const double x = -at_0 / slope; std::isfinite(x))
+          breaks_[n_breaks_++] = x;
+    std::sort(breaks_.begin(), breaks_.begin() + n_breaks_);
+  }
+
+  LineLoad load_at(double x) const {
+    const geom::Vec3 way = apart_ + x * turns_;
+    const Chord c = chord(way);
+    const geom::Vec3 grows = scale_ * c.across; // half the derivative of depth^2
+    return {way.dot(grows), 2 * grows, 2 * x * grows, 2 * c.middle.cross(grows).dot(along_)};
+  }
+
+  // Over a stretch. Between two breaks the overlap is quadratic: Simpson's rule is exact.
+  LineLoad load(double from, double to) const {
+    LineLoad sum;
+    each_piece(from, to, [&](double begin, double end) {
+      const double sixth = (end - begin) / 6;
+      sum.add(sixth, load_at(begin));
+      sum.add(4 * sixth, load_at(0.5 * (begin + end)));
+      sum.add(sixth, load_at(end));
+    });
+    return sum;
+  }
+
+  // Where the overlap is the largest. None where it goes on without end, further than this away.
+  std::optional<double> peak(double near, double within) const {
+    const double first = breaks_[0], last = breaks_[std::max(0, n_breaks_ - 1)];
+    if (n_breaks_ < 2 || load_at(2 * first - last).energy > 0 || load_at(2 * last - first).energy > 0)
+      return std::nullopt;
+    double at = near, most = 0;
+    each_piece(first, last, [&](double begin, double end) {
+      const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin), a = load_at(begin).energy,
+                   b = load_at(middle).energy, c = load_at(end).energy, bends = a - 2 * b + c;
+      const double top =
+          bends < 0 ? std::clamp(middle + 0.5 * half * (a - c) / bends, begin, end) : (a > c ? begin : end);
+      if (const double here = load_at(top).energy; here > most) {
+        most = here;
+        at = top;
+      }
+    });
+    return most > 0 && std::abs(at - near) < within ? std::optional(at) : std::nullopt;
+  }
+
+private:
+  // The overlap shrinks the fastest at right angles to its chord, and by the length of it (Feng and Owen 2004, Eng.
+  // Comput. 21, 265-277: their potential is the area of the overlap). That lies in the fans of both, whatever the angles.
+  Chord chord(const geom::Vec3& way) const {
+    std::optional<geom::Vec3> first;
+    geom::Vec3 longest = geom::Vec3::Zero();
+    for (const geom::Vec3& r : e_.face)
+      for (const geom::Vec3& g : f_.face) {
+        const double sine = along_.dot(r.cross(g)), s = along_.dot(way.cross(g)) / sine,
+                     t = along_.dot(way.cross(r)) / sine;
+        if (!(s >= 0 && t >= 0) || !std::isfinite(s + t))
+          continue;
+        const geom::Vec3 crossing = s * r;
+        if (!first)
+          first = crossing;
+        else if ((crossing - *first).squaredNorm() > longest.squaredNorm())
+          longest = crossing - *first;
+      }
+    const geom::Vec3 across = along_.cross(longest);
+    return first ? Chord{across.dot(between_) < 0 ? geom::Vec3(-across) : across, *first + 0.5 * longest}
+                 : Chord{};
+  }
+
+  template <typename Does>
+  void each_piece(double from, double to, const Does& does) const {
+    double begin = from;
+    for (int i = 0; i < n_breaks_; ++i)
+      if (breaks_[i] > begin && breaks_[i] < to) {
+        does(begin, breaks_[i]);
+        begin = breaks_[i];
+      }
+    if (begin < to)
+      does(begin, to);
+  }
+
+  Wedge e_, f_;
+  geom::Vec3 apart_, turns_, along_, between_;
+  double scale_;
+  std::array<double, 4> breaks_{}; // m along e, ascending
+  int n_breaks_ = 0;
+};
+
+// What two nearly parallel edges store where they run beside each other, over half of the stiffness of their crossing.
+// The square of the depth where it is the largest, times the part of the overlap that is theirs: over that within half of the
+// edge's length from there. So parallel edges bear by the length that they have in common; lines that cross bear as much at any angle;
+// and the pairs of two straight chains bear together as one crossing does, over the nodes.
+constexpr double without_end = 1000; // times the length: what is deepest so far away does not matter
+
+LineLoad load_of(const Overlap& overlap, double from, double to, double length) {
+  const LineLoad own = overlap.load(from, to);
+  LineLoad load;
+  const auto deepest = own.energy > 0 ? overlap.peak(0.5 * (from + to), without_end * length) : std::nullopt;
+  if (!deepest) {
+    load.add(1 / length, own);
+    return load;
+  }
+  const LineLoad there = overlap.load_at(*deepest),
+                 around = overlap.load(*deepest - 0.5 * length, *deepest + 0.5 * length);
+  const double part = own.energy / around.energy;
+  load.add(there.energy / around.energy, own);
+  load.add(part, there);
+  load.add(-part * there.energy / around.energy, around);
+  load.energy = part * there.energy;
+  return load;
 }
 
-// Where two nearly parallel edges reach into each other, and along what normal: the middle of the stretch, each place of it
-// weighed by how deep the tip of one wedge lies in the other. None where they do not meet.
-struct Stretch {
-  geom::PlacesOnSegments at;
-  geom::Vec3 normal;
-  std::array<double, 2> parts; // of the edges, where they run beside each other
-};
+// Where tips pass each other sideways an overlap begins with its full force, and the spring that stores as much has no bound.
+// There it is at most so much stiffer than a crossing: it begins without force.
+constexpr double most_share = 10;
 
-std::optional<Stretch> stretch_of(const std::array<geom::Vec3, 2>& a, const std::array<geom::Vec3, 2>& b,
-                                  const Wedge& e, const Wedge& f, const geom::Vec3& along,
-                                  const geom::Vec3& between) {
-  const double length = (a[1] - a[0]).norm(), b0 = (b[0] - a[0]).dot(along), b1 = (b[1] - a[0]).dot(along);
-  const double from = std::max(0.0, std::min(b0, b1)), to = std::min(length, std::max(b0, b1));
+std::optional<EdgeStretch> stretch_of(const std::array<geom::Vec3, 2>& a, const std::array<geom::Vec3, 2>& b,
+                                      const Wedge& e, const Wedge& f, const geom::Vec3& along,
+                                      const geom::Vec3& between, double length) {
+  const double b0 = (b[0] - a[0]).dot(along), b1 = (b[1] - a[0]).dot(along);
+  const double from = std::max(0.0, std::min(b0, b1)), to = std::min((a[1] - a[0]).norm(), std::max(b0, b1));
   if (!(from < to))
     return std::nullopt;
   const geom::Vec3 turns = (b[1] - b[0]) / (b1 - b0) - along, apart = b[0] - a[0] - b0 * along - b0 * turns;
-  const TipDepths depths(e, f, apart, turns);
-  const std::array<double, 8> places = depths.breaks(from, to);
-  Positive inside;
-  for (std::size_t i = 0; i + 1 < places.size(); ++i)
-    if (places[i] < places[i + 1])
-      inside.add({depths.at(places[i]), depths.at(places[i + 1])}, places[i], places[i + 1]);
-  if (!(inside.area > 0))
+  const LineLoad load = load_of(Overlap(e, f, apart, turns, along, between), from, to, length);
+  const double force2 = load.force.squaredNorm();
+  if (!(load.energy > 0 && force2 > 0))
     return std::nullopt;
-  const double x = inside.moment / inside.area;
-  return Stretch{{x / length, (x - b0) / (b1 - b0)},
-                 parting(e, f, apart + x * turns, along, between),
-                 {(to - from) / length, (to - from) / std::abs(b1 - b0)}};
+  // One force through the place where it turns about the edges as the load does, and what is left of the moment.
+  const double force = std::sqrt(force2), x = load.moment.dot(load.force) / force2;
+  EdgeStretch stretch;
+  stretch.normal = load.force / force;
+  stretch.depth = 2 * load.energy / force;
+  stretch.share = std::min(most_share, 0.25 * force2 / load.energy);
+  stretch.place = a[0] + x * along + load.roll / force2 * load.force.cross(along);
+  stretch.lever = along.cross(load.moment - x * load.force).dot(stretch.normal) / force;
+  return stretch;
+}
+
+// m, of an edge that bears as much as the two do beside each other: each bears by the area of its triangles.
+double common_length(const Model& model, const ContactEdge& e, double length_e, const ContactEdge& f,
+                     double length_f) {
+  const auto area = [&](const ContactEdge& edge) {
+    const std::vector<ContactTriangle>& t = model.surface.triangles;
+    return t[edge.triangles[0]].area + t[edge.triangles[1]].area;
+  };
+  const double of_e = area(e), of_f = area(f);
+  return (of_e + of_f) / (of_e / length_e + of_f / length_f);
 }
 
 } // namespace
@@ -173,12 +242,11 @@ NearestOfEdges nearest_of_edges(const Model& model, const State& state, const Co
     const auto into_e = into_faces(model, state, e, a[0], a[1]),
                into_f = into_faces(model, state, f, b[0], b[1]);
     if (const auto between = normal_between(into_e, into_f, along, clear_of_faces))
-      if (const auto stretch =
-              stretch_of(a, b, wedge_of(into_e, along), wedge_of(into_f, along), along, *between)) {
-        nearest.at = stretch->at;
-        nearest.normal = stretch->normal;
-        nearest.parts = stretch->parts;
-      }
+      nearest.stretch = stretch_of(a, b, wedge_of(into_e, along), wedge_of(into_f, along), along, *between,
+                                   common_length(model, e, of_a.norm(), f, of_b.norm()));
+    if (nearest.stretch)
+      nearest.at = {std::clamp((nearest.stretch->place - a[0]).dot(of_a) / of_a.squaredNorm(), 0., 1.),
+                    std::clamp((nearest.stretch->place - b[0]).dot(of_b) / of_b.squaredNorm(), 0., 1.)};
   }
   nearest.way = b[0] + nearest.at.t * of_b - a[0] - nearest.at.s * of_a;
   return nearest;
@@ -214,10 +282,10 @@ std::optional<EdgeTouch> touch_of(const Model& model, const State& state, const 
   const geom::Vec3 across = (a1 - a0).cross(b1 - b0);
   const auto into_e = into_faces(model, state, e, a0, a1), into_f = into_faces(model, state, f, b0, b1);
   if (nearest.nearly_parallel) {
-    if (!nearest.normal)
+    if (!nearest.stretch)
       return std::nullopt;
-    return EdgeTouch{*nearest.normal, nearest.way.dot(*nearest.normal),
-                     across.dot(*nearest.normal) < 0 ? -1. : 1.};
+    const geom::Vec3& normal = nearest.stretch->normal;
+    return EdgeTouch{normal, nearest.stretch->depth, across.dot(normal) < 0 ? -1. : 1.};
   }
   EdgeTouch touch{across.normalized()};
   if (!in_fan(into_f, touch.normal)) {

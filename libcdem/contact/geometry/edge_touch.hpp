@@ -9,9 +9,9 @@
 namespace cdem {
 
 // Two edges whose directions enclose an angle with a smaller sine are nearly parallel. Their common normal would turn with
-// every small motion, and they press on each other along a stretch: the middle of the stretch is where they touch, and the
-// normal is that along which their two wedges part the most.
-inline constexpr double parallel_edges = 0.01;
+// every small motion, and they press on each other along a stretch. From this angle on a stretch is shorter than an edge, as deep
+// as edges may get, and the edges bear as those do that cross.
+inline constexpr double parallel_edges = 0.05;
 // Sine of the angle by which both faces of nearly parallel edges must fall away from the normal: where faces lie flat on
 // each other, their semi-springs press and not their outlines.
 inline constexpr double clear_of_faces = 0.05;
@@ -19,24 +19,31 @@ inline constexpr double clear_of_faces = 0.05;
 // rounding would put it in and out from step to step.
 inline constexpr double fan_slack = 0.01;
 
+// How two nearly parallel edges press on each other where they reach into each other. They store an energy U, and the derivative
+// of U by their motion is a force F at one place, and a moment beside it.
+struct EdgeStretch {
+  geom::Vec3 normal; // unit, out of the second one's body: direction of F on the first
+  geom::Vec3 place;  // m
+  double lever = 0;  // m, of the moment on the first edge about the normal, over F
+  double depth = 0;  // m, 2 U / F
+  double share = 0;  // of the stiffness of a crossing: F^2 / 2 U
+};
+
 struct NearestOfEdges {
   geom::PlacesOnSegments at;
   geom::Vec3 way; // m, from the first edge's place to the second's
   bool nearly_parallel = false;
-  std::optional<geom::Vec3>
-      normal; // of nearly parallel edges that reach into each other, out of the second one's body
-  // Part of each edge that bears: nearly parallel edges bear where they run beside each other.
-  std::array<double, 2> parts{1, 1};
+  std::optional<EdgeStretch> stretch; // of nearly parallel edges that reach into each other
 
   bool within_both() const { return at.s > 0 && at.s < 1 && at.t > 0 && at.t < 1; }
 };
 
-// The nearest places of two edges; of nearly parallel ones that reach into each other the middle of where they do.
+// The nearest places of two edges; of nearly parallel ones that reach into each other those where their force acts.
 NearestOfEdges nearest_of_edges(const Model&, const State&, const ContactEdge& e, const ContactEdge& f);
 
 struct EdgeTouch {
   // Unit, out of the second edge's body: at right angles to both edges, but at an end along the line between the two
-  // points, and between the wedges of nearly parallel edges.
+  // points, and of nearly parallel edges that of their stretch.
   geom::Vec3 normal;
   double depth = 0; // m, > 0 where they touch
   double sense = 1; // of (first x second) . normal, 1 or -1

@@ -81,6 +81,12 @@ std::optional<Contact> EdgeLines::left_behind(int e, int f, const geom::Vec3& no
   return most;
 }
 
+bool EdgeLines::carry_together(int e, int f) const {
+  return any_of_line(e, [&](int a, double) {
+    return any_of_line(f, [&](int b, double) { return contact_of(a, b) != nullptr; });
+  });
+}
+
 bool EdgeLines::takes_over(int e, int f, const geom::Vec3& normal, int from, int to,
                            const geom::Vec3& before) const {
   const std::vector<int> targets = line_of(to);
@@ -116,7 +122,7 @@ bool EdgeLines::cuts_off_end(int edge, double place, int by, double within) cons
     return false;
   const geom::Vec3 normal = across.cross(along).normalized();
   return !any_next(edge, place < 0.5 ? 0 : 1, [&](int next, double way) {
-    return way * across.cross(direction(next).normalized()).dot(normal) > parallel_edges;
+    return way * across.cross(direction(next).normalized()).dot(normal) > edges_in_line;
   });
 }
 

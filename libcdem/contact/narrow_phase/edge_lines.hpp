@@ -14,6 +14,9 @@
 
 namespace cdem {
 
+// Two edges whose directions enclose an angle with a smaller sine lie along each other, as the outlines of blocks in rows.
+inline constexpr double edges_in_line = 0.01;
+
 class EdgeLines {
 public:
   EdgeLines(const Model&, const State&, const SurfaceEdges&, const EdgesTouched&);
@@ -27,6 +30,9 @@ public:
   // that presses the most of those that these two take over. An edge that only meets an end, as at the corner of a face, is
   // another line: it would press aside.
   std::optional<Contact> left_behind(int e, int f, const geom::Vec3& normal) const;
+
+  // Whether the two edges, or others which continue them, had a contact before the step.
+  bool carry_together(int e, int f) const;
 
   // Whether any edge that meets an end of the one, or that edge itself, had a contact before the step, and of the other.
   bool touched_around(int e, int f) const;

@@ -39,7 +39,7 @@ void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const Con
                               const geom::Vec3& velocity, const ContactTriangle& from,
                               const ContactTriangle& to, ContactMotion& motion) const {
   const double force = law.kn * pressed_now(c, motion);
-  const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 3, force),
+  const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 4, force),
                    target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
   motion.acceleration = source.acceleration + target.acceleration;
   const double rests = part_at_rest(c, motion), closing = -velocity.dot(motion.normal), // m/s
@@ -78,8 +78,10 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   } else {
     c.normal = old ? old->normal : motion.normal;
     if (old) {
-      c.shear = old->shear;
-      c.damping = old->damping;
+      // Under another stiffness it stores as much.
+      const double grows = own && old->stiffness > 0 ? std::sqrt(c.stiffness / old->stiffness) : 1;
+      c.shear = grows * old->shear;
+      c.damping = grows * old->damping;
       c.at_rest = old->at_rest;
       c.peak = old->peak;
       c.usual_force = old->usual_force;
@@ -110,6 +112,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   force.target_block = to.block;
   force.normal = normal_force(c, law) * c.normal;
   force.shear = c.shear;
+  force.moment = motion.lever * force.normal;
   force.stiffness = law.kn * (1 + law.damping_ratio) + law.ks;
   out_.contacts.push_back(c);
   out_.forces.push_back(force);

@@ -18,6 +18,13 @@ struct Hindrance {
   double by_angle = 0, last_end = 0, parallel = 0;
 };
 
+double sine_between(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f) {
+  const auto along = [&](const ContactEdge& edge) -> geom::Vec3 {
+    return (place_of(model, state, edge.nodes[1]) - place_of(model, state, edge.nodes[0])).normalized();
+  };
+  return along(e).cross(along(f)).norm();
+}
+
 Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
                        const geom::PlacesOnSegments& at, bool e_ends, bool f_ends) {
   const geom::Vec3 a = place_of(model, state, e.nodes[1]) - place_of(model, state, e.nodes[0]),
@@ -67,7 +74,7 @@ double apart_until(const Model& model, const State& state, const ContactEdge& e,
   return std::min({until[0], until[1], 0.25 * sine / turns});
 }
 
-// Nearly parallel edges that meet tip on tip in this step stop each other. One that slides along a face and over the edge at
+// Edges along each other that meet tip on tip in this step stop each other. One that slides along a face and over the edge at
 // its end passes a step: the two do not meet before they reach as deep into each other as semi-springs stand in. Edges that
 // lie on each other in the undeformed model belong to blocks in rows, which are not to press on each other across an edge:
 // they do not meet before they are as far apart as that.
@@ -81,7 +88,8 @@ bool may_begin_along(const Model& model, const ContactEdge& e, const ContactEdge
                distance = nearest.way.norm();
   if ((b0 + at.t * (b1 - b0) - a0 - at.s * (a1 - a0)).norm() <= stand_in)
     return distance > stand_in;
-  return distance <= 1.5 * moved_in_step || (nearest.normal && nearest.way.dot(*nearest.normal) > stand_in);
+  return distance <= 1.5 * moved_in_step ||
+         (nearest.stretch && nearest.way.dot(nearest.stretch->normal) > stand_in);
 }
 
 } // namespace
@@ -124,7 +132,7 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     const bool e_ends = lines_.at_last_end(row.source, nearest.at.s),
                f_ends = lines_.at_last_end(target, nearest.at.t);
     bool may_begin = distance <= limit && !e_ends && !f_ends;
-    if (may_begin && nearest.nearly_parallel) {
+    if (may_begin && sine_between(model_, state_, e, f) < edges_in_line) {
       may_begin = may_begin_along(model_, e, f, nearest, moved_in_step(row));
     } else if (may_begin) {
       // Where the way between them leads out of one of the two bodies, an end that is nearer than the way is long may have a
@@ -167,23 +175,28 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
   ContactMotion motion;
   motion.normal = touch.normal;
   motion.depth = touch.depth;
-  motion.turned = 0.5 * work_.step * (spin_of(e) + spin_of(f));
+  const double spin_e = spin_of(e), spin_f = spin_of(f);
+  motion.turned = 0.5 * work_.step * (spin_e + spin_f);
+  motion.turned_past = work_.step * (spin_e - spin_f);
   const Law& law = law_between(from.block, to.block);
   const Contact* old = before(c);
   std::optional<Contact> beyond;
-  if (!old) {
+  const ContactLaw own = edge_law(model_, *law.joint, law.tan_friction, e.triangles, f.triangles);
+  if (const auto& stretch = nearest.stretch) {
+    motion.lever = stretch->lever;
+    motion.along_stretch = old != nullptr;
+    if (!old && !may_begin && !lines_.carry_together(source, target))
+      return;
+    c.stiffness = stretch->share * own.kn; // of the stretch that they have now
+  } else if (old) {
+    c.stiffness = old->stiffness;
+  } else {
     beyond = lines_.left_behind(source, target, touch.normal);
     old = beyond ? &*beyond : nullptr;
     if (!old && !may_begin)
       return;
   }
-  const ContactLaw own =
-      edge_law(model_, *law.joint, law.tan_friction, e.triangles, f.triangles, nearest.parts);
-  if (nearest.nearly_parallel)
-    c.stiffness = own.kn; // of the stretch that they have now
-  else if (old && !beyond)
-    c.stiffness = old->stiffness;
-  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest.at), as_stiff_as(c, own), from, to);
+  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest), as_stiff_as(c, own), from, to);
 }
 
 double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,

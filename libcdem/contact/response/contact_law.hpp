@@ -73,6 +73,9 @@ struct ContactMotion {
   double depth = 0;                       // m, now
   geom::Vec3 slid = geom::Vec3::Zero();   // m, of the source past the target
   double turned = 0;                      // rad, of the two faces about the normal
+  double turned_past = 0;                 // rad, of the source past the target about the normal
+  double lever = 0;                       // m, of a moment about the normal, over the normal force beside it
+  bool along_stretch = false;             // part of a stretch that carries, which may grow in a jump
   double step = 0;                        // s, in which that happened
   double approach = 0;                    // s of restitution: 1 the bodies approach, -1 they separate
   double acceleration = 0;                // m/s2, a of restitution
@@ -81,6 +84,8 @@ struct ContactMotion {
   bool deformable = false;                // one of its two bodies is, and restitution knows them
   double felt_over_usual = 1;             // these two means, summed over the contacts between its bodies
   bool in_relaxation = false;             // its steps are no times, and it finds the contact at rest
+
+  double opened() const { return slid.dot(normal) + lever * turned_past; } // m
 };
 
 // What a contact loses in a step, J, >= 0.
@@ -98,7 +103,7 @@ inline geom::Vec3 turned_with(const geom::Vec3& v, const geom::Vec3& from, const
 
 // Where a contact that is new starts to carry: at the surface when it got this deep within the step.
 inline double first_reference_penetration(const ContactMotion& m) {
-  return m.depth <= -1.5 * m.slid.dot(m.normal) ? 0 : m.depth;
+  return m.along_stretch || m.depth <= -1.5 * m.slid.dot(m.normal) ? 0 : m.depth;
 }
 
 // The reference of a contact that goes on. If its normal turns over to another face within a step, its depth may grow by more than
@@ -106,7 +111,7 @@ inline double first_reference_penetration(const ContactMotion& m) {
 inline double next_reference_penetration(const Contact& old, const ContactMotion& m) {
   const double before = m.depth + m.slid.dot(m.normal), // m, before the step under the normal of now
       jump = before - old.reference_penetration - old.effective_penetration();
-  return old.reference_penetration + (jump > 1.5 * m.slid.norm() ? jump : 0);
+  return old.reference_penetration + (!m.along_stretch && jump > 1.5 * m.slid.norm() ? jump : 0);
 }
 
 // q, m: how far the contact has been pressed while its bodies approached.
@@ -220,7 +225,7 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   c.depth = m.depth;
   ContactLoss loss;
   if (law.damping_ratio > 0) {
-    loss.damping = advance_damping(c, law, m, -m.slid.dot(m.normal));
+    loss.damping = advance_damping(c, law, m, -m.opened());
     advance_rest(c, m);
   }
   advance_felt_force(c, law, m);

@@ -1,6 +1,5 @@
 #include "libcdem/contact/response/contact_point.hpp"
 
-#include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/response/tet_potential.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
@@ -22,6 +21,17 @@ std::array<double, 4> in_tet(const Model& model, const State& state, const geom:
   const double wa = p.dot(b.cross(c)) / volume, wb = a.dot(p.cross(c)) / volume,
                wc = a.dot(b.cross(p)) / volume;
   return {1 - wa - wb - wc, wa, wb, wc};
+}
+
+// 1/m, of the weights in in_tet.
+std::array<geom::Vec3, 4> gradients_in_tet(const Model& model, const State& state, const geom::Tet& nodes) {
+  std::array<geom::Vec3, 4> x;
+  for (int i = 0; i < 4; ++i)
+    x[i] = place_of(model, state, nodes[i]);
+  const geom::Vec3 a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
+  const double volume = a.dot(b.cross(c));
+  const geom::Vec3 ga = b.cross(c) / volume, gb = c.cross(a) / volume, gc = a.cross(b) / volume;
+  return {-ga - gb - gc, ga, gb, gc};
 }
 
 // area: m2; compliance: m/Pa, of both bodies.
@@ -145,12 +155,10 @@ ContactLaw spring_law(const Model& model, const Joint& joint, double tan_frictio
 }
 
 ContactLaw edge_law(const Model& model, const Joint& joint, double tan_friction,
-                    const std::array<int, 2>& from, const std::array<int, 2>& to,
-                    const std::array<double, 2>& parts) {
+                    const std::array<int, 2>& from, const std::array<int, 2>& to) {
   const std::vector<ContactTriangle>& t = model.surface.triangles;
   const auto mean = [](double a, double b) { return 0.5 * (a + b); };
-  const double area = parts[0] * mean(t[from[0]].area, t[from[1]].area) / 3 +
-                      parts[1] * mean(t[to[0]].area, t[to[1]].area) / 3;
+  const double area = mean(t[from[0]].area, t[from[1]].area) / 3 + mean(t[to[0]].area, t[to[1]].area) / 3;
   return law_over(joint, tan_friction, area,
                   compliance_between(model, t[from[0]].block,
                                      mean(t[from[0]].compliance, t[from[1]].compliance), t[to[0]].block,
@@ -184,8 +192,16 @@ ContactArms spring_arms(const Model& model, const State& state, const ContactTri
 }
 
 ContactArms edge_arms(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
-                      const geom::PlacesOnSegments& at) {
+                      const NearestOfEdges& nearest) {
   ContactArms arms;
+  if (nearest.stretch) { // one place on both, so that the force turns nothing
+    arms.source = model.tets[model.surface.triangles[e.triangles[0]].tet];
+    arms.target = model.tets[model.surface.triangles[f.triangles[0]].tet];
+    arms.on_source = in_tet(model, state, arms.source, nearest.stretch->place);
+    arms.normal = arms.shear = in_tet(model, state, arms.target, nearest.stretch->place);
+    return arms;
+  }
+  const geom::PlacesOnSegments& at = nearest.at;
   arms.source = {e.nodes[0], e.nodes[1], e.nodes[0], e.nodes[0]};
   arms.on_source = {1 - at.s, at.s, 0, 0};
   arms.target = model.tets[model.surface.triangles[f.triangles[0]].tet];
@@ -197,6 +213,14 @@ ContactArms edge_arms(const Model& model, const State& state, const ContactEdge&
   return arms;
 }
 
+std::array<geom::Vec3, 4> forces_of_moment(const Model& model, const State& state, const geom::Tet& nodes,
+                                           const geom::Vec3& moment) {
+  std::array<geom::Vec3, 4> forces = gradients_in_tet(model, state, nodes);
+  for (geom::Vec3& force : forces)
+    force = 0.5 * moment.cross(force);
+  return forces;
+}
+
 ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
   const ContactSurface& s = model.surface;
   if (c.kind == Contact::tets)
@@ -204,7 +228,7 @@ ContactArms arms_of(const Model& model, const State& state, const Contact& c) {
   if (c.kind == Contact::edge) {
     const ContactEdge e = edge_between(s, c.source / 3, c.source % 3, c.fragment, 0),
                       f = edge_between(s, c.target / 3, c.target % 3, c.beside, 0);
-    return edge_arms(model, state, e, f, nearest_of_edges(model, state, e, f).at);
+    return edge_arms(model, state, e, f, nearest_of_edges(model, state, e, f));
   }
   const ContactTriangle &from = s.triangles[c.source / 3], &to = s.triangles[c.target];
   const geom::Vec3 spring = weighted(corners_of(model, state, from.nodes), spring_weights(c.source % 3));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libcdem/contact/response/contact_law.hpp"
 #include "libcdem/state/state.hpp"
 #include "libgeom/query/closest.hpp"
@@ -10,12 +11,12 @@ namespace cdem {
 
 ContactLaw law_of(const Model&, const Contact&);
 
-// Law of a spring, from its triangle and the triangle it is pressed into; law of parts of two edges, each with the means of
+// Law of a spring, from its triangle and the triangle it is pressed into; law of two edges that cross, each with the means of
 // its two triangles. The joint is that between their bodies. A rigid body has no compliance beside one that deforms.
 ContactLaw spring_law(const Model&, const Joint&, double tan_friction, const ContactTriangle& from,
                       const ContactTriangle& to);
 ContactLaw edge_law(const Model&, const Joint&, double tan_friction, const std::array<int, 2>& from,
-                    const std::array<int, 2>& to, const std::array<double, 2>& parts = {1, 1});
+                    const std::array<int, 2>& to);
 
 // Means of a tetrahedron's faces and heights, undeformed. Two faces that lie on each other as they did in the mesh, pressed by their
 // middles alone, are 4 times as stiff as the tetrahedra behind them, a corner in a face a sixth; in shear a pair is a third as stiff.
@@ -43,7 +44,10 @@ geom::Vec3 spring_weights(int corner);
 ContactArms spring_arms(const Model&, const State&, const ContactTriangle& from, int corner,
                         const ContactTriangle& to, const geom::Vec3& nearest);
 ContactArms edge_arms(const Model&, const State&, const ContactEdge& source, const ContactEdge& target,
-                      const geom::PlacesOnSegments&);
+                      const NearestOfEdges&);
+// Forces on the corners of a tetrahedron that turn it as a moment (N m) does, and together move it nowhere, N.
+std::array<geom::Vec3, 4> forces_of_moment(const Model&, const State&, const geom::Tet&,
+                                           const geom::Vec3& moment);
 ContactArms arms_of(const Model&, const State&, const Contact&); // as the two stand now
 
 geom::Vec3 velocity_past(const State&, const ContactArms&); // m/s, of the source past the target
