@@ -118,10 +118,10 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   const std::int64_t n_chunks = n_springs + chunks(edges);
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
   mark_touched_edges(state.contacts, own.movers, own.edges, own.edges_touched);
-  if (own.restitution) {
+  if (own.damps)
     sum_block_forces(model, state, own);
+  if (own.damps && own.knows_motions)
     find_block_motions(model, state, own, threads);
-  }
   find_awake(model, state, own);
   FoundContacts found(model, state, own);
   for (std::int64_t first = 0; first < n_chunks; first += chunks_at_a_time * threads) {
@@ -171,7 +171,7 @@ double contact_energy(const Model& model, const State& state, double lag) {
     Contact then = now;
     if (now.effective_penetration() > 0)
       then.depth = std::max(then.depth + along, then.reference_penetration);
-    then.damping = law.damping_ratio * law.kn *
+    then.damping = part_damped(now, law) * law.kn *
                    std::clamp(pressed_by_approach(now, law) + along, 0.0, then.effective_penetration());
     then.shear += law.ks * (ago - along * now.normal);
     const double limit = friction_limit(law.kn * then.effective_penetration(), law.tan_friction);

@@ -220,7 +220,7 @@ void FoundContacts::add_losses() {
 // All ranks know all contacts of deformable bodies. Both lists are sorted.
 void FoundContacts::remember_opened() {
   std::vector<OpenedContact>& all = state_.opened_contacts;
-  if (!work_.restitution) {
+  if (!work_.damps) {
     all.clear();
     return;
   }

@@ -138,7 +138,7 @@ public:
         previous_force_(masses_.of_nodes().size()), settled_(options.residual),
         stability_(model_, state_, masses_.of_nodes(), moving_steps_) {
     ResolvedConditions& resolved = stage_.work.resolved;
-    stage_.work.contact.restitution = false; // its steps are no times
+    stage_.work.contact.damps = false; // its steps are no times
     stage_.in_real_time = false;
     stage_.breaking = options.breaking;
     stage_.carried = &previous_force_;

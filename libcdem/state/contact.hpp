@@ -28,7 +28,7 @@ struct Contact {
   double reference_penetration = 0;
   double depth = 0;       // m, below the target's surface
   double damping = 0;     // N, what restitution adds to the spring's normal force
-  double at_rest = 0;     // m, mean effective penetration over some ten oscillations; with restitution
+  double at_rest = 0;     // m, mean effective penetration over the last one or two oscillations
   double peak = 0;        // m, largest effective penetration; fades as that mean
   double usual_force = 0; // N, mean of its normal force over some ten oscillations
   double felt_force = 0;  // N, the same over two thirds of one

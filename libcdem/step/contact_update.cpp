@@ -91,7 +91,7 @@ void ContactUpdate::start_anew(const Model& model, const State& state, ContactWo
   start_contact(model, work);
   work.motion.last_step = before.motion.last_step;
   work.options = before.options;
-  work.restitution = before.restitution;
+  work.damps = before.damps;
   work.shared = before.shared;
   if (before.tets_beyond.neighbours.size() ==
       4 * model.mesh.tet_slot.size()) // tets keep their numbers where nodes are freed

@@ -14,18 +14,18 @@ using geom::Vec3;
 
 namespace {
 
-using Corners = std::array<Vec3, 8>; // of two tetrahedra
+using EightCorners = std::array<Vec3, 8>; // of two tetrahedra
 
-double six_volumes(const Corners& x, int tet) {
+double six_volumes(const EightCorners& x, int tet) {
   const Vec3* const t = x.data() + 4 * tet;
   return (t[1] - t[0]).dot((t[2] - t[0]).cross(t[3] - t[0]));
 }
 
 // Two tetrahedra of about a metre, whose middles stand `apart` metres from each other along x.
-Corners random_pair(std::mt19937& random, double apart) {
+EightCorners random_pair(std::mt19937& random, double apart) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (;;) {
-    Corners x;
+    EightCorners x;
     for (int i = 0; i < 8; ++i)
       x[i] = Vec3(uniform(random) + (i < 4 ? 0 : apart), uniform(random), uniform(random));
     for (int tet = 0; tet < 2; ++tet)
@@ -47,15 +47,15 @@ TetPairPress batch_of(double phi0) {
   return batch;
 }
 
-std::vector<Node> places_of(const std::array<Corners, lanes>& pairs) {
+std::vector<Node> places_of(const std::array<EightCorners, lanes>& pairs) {
   std::vector<Node> places;
-  for (const Corners& x : pairs)
+  for (const EightCorners& x : pairs)
     for (const Vec3& corner : x)
       places.push_back({corner.x(), corner.y(), corner.z(), 0});
   return places;
 }
 
-TetPairPress pressed(const std::array<Corners, lanes>& pairs, double phi0 = 0) {
+TetPairPress pressed(const std::array<EightCorners, lanes>& pairs, double phi0 = 0) {
   TetPairPress batch = batch_of(phi0);
   const std::vector<Node> places = places_of(pairs);
   press_pairs(places.data(), &batch, 1);
@@ -63,8 +63,8 @@ TetPairPress pressed(const std::array<Corners, lanes>& pairs, double phi0 = 0) {
   return batch;
 }
 
-std::array<Corners, lanes> same(const Corners& x) {
-  std::array<Corners, lanes> pairs;
+std::array<EightCorners, lanes> same(const EightCorners& x) {
+  std::array<EightCorners, lanes> pairs;
   pairs.fill(x);
   return pairs;
 }
@@ -81,12 +81,12 @@ TEST_CASE("forces of overlapping tetrahedra are the gradient of their energy", "
   constexpr double e = 1e-6; // m
   int overlapping = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    const Corners x = random_pair(random, 1);
+    const EightCorners x = random_pair(random, 1);
     const TetPairPress here = pressed(same(x), 0.01);
     if (here.energy[0] < 1e-6)
       continue;
     ++overlapping;
-    std::array<Corners, lanes> moved = same(x);
+    std::array<EightCorners, lanes> moved = same(x);
     std::array<int, 4> of;
     for (int i = 0; i < 4; ++i) {
       of[i] = any(random);
@@ -104,7 +104,7 @@ TEST_CASE("forces of overlapping tetrahedra are the gradient of their energy", "
 TEST_CASE("forces of overlapping tetrahedra keep momentum and angular momentum", "[contact]") {
   std::mt19937 random(7);
   for (int trial = 0; trial < 500; ++trial) {
-    const Corners x = random_pair(random, 0.8);
+    const EightCorners x = random_pair(random, 0.8);
     const TetPairPress batch = pressed(same(x));
     Vec3 sum = Vec3::Zero(), turn = Vec3::Zero();
     for (int i = 0; i < 8; ++i) {
@@ -120,7 +120,7 @@ TEST_CASE("tetrahedra press each other just where they overlap", "[contact]") {
   std::mt19937 random(11);
   int parted = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    Corners x = random_pair(random, 1.6);
+    EightCorners x = random_pair(random, 1.6);
     const TetPairPress batch = pressed(same(x));
     const double deepest = batch.of.deepest[0];
     CHECK((batch.energy[0] > 0) == (deepest > 0));
@@ -131,9 +131,9 @@ TEST_CASE("tetrahedra press each other just where they overlap", "[contact]") {
     }
     // They do not touch before one has come as far, in any direction.
     ++parted;
-    std::array<Corners, lanes> moved = same(x);
+    std::array<EightCorners, lanes> moved = same(x);
     std::normal_distribution<double> normal;
-    for (Corners& one : moved) {
+    for (EightCorners& one : moved) {
       const Vec3 way = Vec3(normal(random), normal(random), normal(random)).normalized() * (-0.999 * deepest);
       for (int i = 0; i < 4; ++i)
         one[i] += way;

@@ -126,7 +126,9 @@ void start_contact(const Model& model, ContactWork& work) {
        {&work.motion.travelled, &work.motion.last_displacement, &work.motion.skin, &work.rigid_pairs.path})
     of_movers->assign(model.blocks.size(), 0.0);
   for (const auto& [bodies, law] : s.joint)
-    work.restitution = work.restitution || model.joints[law].restitution < 1;
+    work.knows_motions = work.knows_motions || model.joints[law].restitution < 1;
+  work.damps = work.knows_motions || std::any_of(model.blocks.begin(), model.blocks.end(),
+                                                 [](const Block& block) { return block.rigid < 0; });
   work.sizes.freed.assign(model.blocks.size(), 0);
   for (const MeshChunk& chunk : model.mesh.chunks)
     if (chunk.side_batches.size() > 0)

@@ -97,13 +97,14 @@ struct ContactWork {
   // blocks of which faces have been freed or have broken. Otherwise only contacts of movers that have changed do.
   bool any_depth_begins = false, any_depth_of_broken = false;
   EdgesTouched edges_touched;
-  bool restitution = false; // some contact law has one below 1, and the stage wants it
+  bool knows_motions = false; // of blocks as wholes: some contact law has a restitution below 1
+  bool damps = false;         // contacts may lose energy by damping, and the stage wants it
   std::vector<double>
-      block_forces; // N, per block, of all springs that pressed on it before the step; with restitution
-  std::vector<double> block_stiffness; // N/m, per block, of the same springs; with restitution
+      block_forces; // N, per block, of all springs that pressed on it before the step; where they damp
+  std::vector<double> block_stiffness; // N/m, per block, of the same springs; likewise
   std::unordered_map<std::uint64_t, PairForces>
       pair_forces;                       // by two blocks; likewise, with a block that deforms
-  std::vector<BlockMotion> block_motion; // per block, of those that touched before the step; with restitution
+  std::vector<BlockMotion> block_motion; // per block, of those that touched before the step; if known
 
   std::vector<ContactChunk> chunks; // of as many chunks of rows as are computed at a time
   std::vector<Contact> now;         // those of the step, before they replace State::contacts

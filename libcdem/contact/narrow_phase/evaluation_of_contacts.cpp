@@ -28,10 +28,13 @@ Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, c
   const Block& b = model_.blocks[block];
   const double mass = b.mass.volume * density;
   SideMotion side_motion{velocity, work_.block_forces[block] / mass, b.rigid >= 0 ? 0 : force * local};
-  if (const BlockMotion& motion = work_.block_motion[block]; motion.whole)
-    side_motion.velocity = motion.velocity + motion.spin.cross(place - motion.centroid);
-  else
+  if (!is_in_one_piece(model_, work_, block))
     side_motion.acceleration += side_motion.local_acceleration;
+  else if (work_.knows_motions) {
+    const BlockMotion& motion = work_.block_motion[block];
+    if (motion.whole)
+      side_motion.velocity = motion.velocity + motion.spin.cross(place - motion.centroid);
+  }
   return side_motion;
 }
 
@@ -42,14 +45,14 @@ void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const Con
   const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 4, force),
                    target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
   motion.acceleration = source.acceleration + target.acceleration;
-  const double rests = part_at_rest(c, motion), closing = -velocity.dot(motion.normal), // m/s
+  const double rests = part_at_rest(c), closing = -velocity.dot(motion.normal), // m/s
       approach = (target.velocity - source.velocity).dot(motion.normal);
   const double reversed = reversible_speed(c, motion);
   motion.approach = part_of((1 - rests) * approach + rests * closing, reversed);
   // Bodies that part faster than that are no bodies at rest.
   motion.held_at_most = approach <= -reversed
                             ? 1
-                            : part_held(law, closing, work_.step * motion.acceleration,
+                            : part_held(part_damped(c, law), closing, work_.step * motion.acceleration,
                                         work_.step * (source.local_acceleration + target.local_acceleration));
 }
 
@@ -70,7 +73,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   const geom::Vec3 velocity = velocity_past(state_, arms);
   motion.slid = work_.step * velocity;
   motion.step = work_.step;
-  motion.in_relaxation = !work_.restitution;
+  motion.in_relaxation = !work_.damps;
   ContactForce force;
   const bool own = old && key(*old) == key(c);
   if (own && work_.step == 0 && old->target == c.target) {
@@ -94,10 +97,9 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       force.friction -= take_over(c, *old, law, motion);
     else if (old && old->target != c.target)
       force.friction += target_change_loss(*old, law, motion);
-    if (work_.restitution && law.damping_ratio > 0) {
-      motion.part_of_rest =
-          part_of_rest(work_.step, frequency_on_contacts(model_, work_, from.block, to.block));
-      motion.deformable = model_.blocks[from.block].rigid < 0 || model_.blocks[to.block].rigid < 0;
+    if (work_.damps && law.damps) {
+      motion.omega_step = work_.step * frequency_on_contacts(model_, work_, from.block, to.block);
+      motion.shares_friction = shares_friction(model_, work_, from.block, to.block);
       motion.felt_over_usual = felt_over_usual(work_, from.block, to.block);
       if (!old)
         go_on_if_opened(c);
@@ -113,7 +115,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   force.normal = normal_force(c, law) * c.normal;
   force.shear = c.shear;
   force.moment = motion.lever * force.normal;
-  force.stiffness = law.kn * (1 + law.damping_ratio) + law.ks;
+  force.stiffness = law.kn * (1 + part_damped(c, law)) + law.ks;
   out_.contacts.push_back(c);
   out_.forces.push_back(force);
   // Not what was found so deep.

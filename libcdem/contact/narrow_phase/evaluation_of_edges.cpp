@@ -206,7 +206,7 @@ double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& l
       pressed = std::min(depth, old.effective_penetration() * std::sqrt(before.kn / law.kn));
   c.depth = depth;
   c.reference_penetration = depth - pressed;
-  c.damping = std::min(c.damping, law.damping_ratio * law.kn * pressed);
+  c.damping = std::min(c.damping, part_damped(c, law) * law.kn * pressed);
   c.felt_force *= std::sqrt(law.kn / before.kn);
   c.usual_force *= std::sqrt(law.kn / before.kn);
   c.at_rest *= std::sqrt(before.kn / law.kn);

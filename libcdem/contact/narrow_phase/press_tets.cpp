@@ -188,8 +188,8 @@ private:
     }
     look(deep, find_deepest);
     cdem::find_pushes(of_.place.data(), state_.velocity.data(),
-                      work_.restitution ? moving_mass(model_, state_).data() : nullptr, work_.step,
-                      batches_.get(), pushes_.get(), static_cast<std::int64_t>(n_batches_));
+                      work_.damps && work_.knows_motions ? moving_mass(model_, state_).data() : nullptr,
+                      work_.step, batches_.get(), pushes_.get(), static_cast<std::int64_t>(n_batches_));
   }
 
   TetPairLaw law_of(std::size_t i) {
@@ -257,9 +257,9 @@ private:
       motion.depth = c.reference_penetration + pressed;
       motion.slid = {push.slid[0][lane], push.slid[1][lane], push.slid[2][lane]};
       motion.turned = push.turned[lane];
-      motion.in_relaxation = !work_.restitution;
+      motion.in_relaxation = !work_.damps;
       const double closing = push.closing[lane];
-      if (work_.restitution && law.damping_ratio > 0)
+      if (work_.damps && law.damps)
         set_approach(c, law, closing, force * push.compliance[lane], motion);
       const double damping = c.damping;
       if (damping > 0) // stores the same in the spring of now
@@ -297,9 +297,9 @@ private:
                     ContactMotion& motion) const {
     motion.step = work_.step;
     motion.acceleration = acceleration;
-    motion.part_of_rest = part_of_rest(work_.step, std::sqrt(acceleration / pressed_now(c, motion)));
+    motion.omega_step = work_.step * std::sqrt(acceleration / pressed_now(c, motion));
     motion.approach = part_of(closing, work_.step * reversible_speed(c, motion));
-    motion.held_at_most = part_held(law, closing, 0, work_.step * work_.step * acceleration);
+    motion.held_at_most = part_held(law.damping_ratio, closing, 0, work_.step * work_.step * acceleration);
   }
 
   // What its shear force and its damping stored is lost; its potential has given back what it had.
@@ -308,7 +308,7 @@ private:
     if (law.ks > 0)
       out_.friction.push_back(0.5 * c.shear.squaredNorm() / law.ks -
                               0.5 * c.shear.dot(slid_by_middles(model_, state_, work_.step, c)));
-    if (law.damping_ratio > 0)
+    if (law.damps)
       out_.damping.push_back(stored_by_damping(c, law));
   }
 

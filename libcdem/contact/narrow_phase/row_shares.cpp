@@ -70,7 +70,7 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
         rigid.push_back(block.rigid);
       continue;
     }
-    if (work.restitution ||
+    if (work.knows_motions ||
         touches_itself(model, work.movers, b)) // each rank finds all its pairs of tetrahedra
       nodes.add_block(b);
     else if (read[b])

@@ -58,10 +58,11 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
     const double stiffness = c.effective_penetration() > 0 ? law_of(model, c).kn : 0,
                  force = stiffness * c.effective_penetration();
     const auto [a, b] = blocks_of(model, c);
-    if (stiffness > 0 && (model.blocks[a].rigid < 0 || model.blocks[b].rigid < 0)) {
+    if (stiffness > 0 && shares_friction(model, work, a, b)) {
       PairForces& pair = work.pair_forces[pair_of(a, b)];
-      pair.felt += c.felt_force;
-      pair.usual += c.usual_force;
+      const double rests = part_at_rest(c);
+      pair.felt += rests * c.felt_force;
+      pair.usual += rests * c.usual_force;
     }
     for (const int block : {a, b})
       if (const int rigid = model.blocks[block].rigid; rigid < 0) {
@@ -102,18 +103,25 @@ double frequency_on_contacts(const Model& model, const ContactWork& work, int bl
   return std::sqrt(sum);
 }
 
+bool shares_friction(const Model& model, const ContactWork& work, int block_a, int block_b) {
+  return (model.blocks[block_a].rigid < 0 || model.blocks[block_b].rigid < 0) &&
+         !work.movers.broken[block_a] && !work.movers.broken[block_b];
+}
+
 double felt_over_usual(const ContactWork& work, int block_a, int block_b) {
-  if (work.movers.broken[block_a] || work.movers.broken[block_b])
-    return 1;
   const auto pair = work.pair_forces.find(pair_of(block_a, block_b));
   return pair != work.pair_forces.end() && pair->second.usual > 0 ? pair->second.felt / pair->second.usual
                                                                   : 1;
 }
 
+bool is_in_one_piece(const Model& model, const ContactWork& work, int block) {
+  return model.blocks[block].meshed && !work.movers.broken[block];
+}
+
 void find_block_motions(const Model& model, const State& state, ContactWork& work, int threads) {
   work.block_motion.assign(model.blocks.size(), {});
   for_chunks(static_cast<std::int64_t>(model.blocks.size()), threads, [&](std::int64_t b) {
-    if (model.blocks[b].meshed && !work.movers.broken[b] && work.block_forces[b] > 0)
+    if (is_in_one_piece(model, work, static_cast<int>(b)) && work.block_forces[b] > 0)
       work.block_motion[b] = motion_of(model, state, model.blocks[b]);
   });
 }

@@ -14,9 +14,14 @@ void sum_block_forces(const Model&, const State&, ContactWork&);
 // 1/s, omega of contact_law.hpp, of two blocks that touch each other, by these sums.
 double frequency_on_contacts(const Model&, const ContactWork&, int block_a, int block_b);
 
-// Felt over usual forces of all contacts of two blocks. 1 where faces of one of them are broken: their fragments move by
-// themselves.
+// Two blocks of which one deforms and neither has broken faces: else their fragments move by themselves.
+bool shares_friction(const Model&, const ContactWork&, int block_a, int block_b);
+
+// Felt over usual forces of all contacts of two blocks that share friction.
 double felt_over_usual(const ContactWork&, int block_a, int block_b);
+
+// A block without broken faces: else its fragments move by themselves.
+bool is_in_one_piece(const Model&, const ContactWork&, int block);
 
 // By its nodes; not whole where they are too few for a spin.
 BlockMotion motion_of(const Model&, const State&, const Block&);

@@ -2,42 +2,46 @@
 //
 //   Fn = kn (d - d0)+            d depth below the target's surface; d0 = 0, or the depth at which it was found
 //   Fs = R Fs - ks du_s          R turns it with the normal, and about it with the two faces; du_s slip of this step
-//   |Fs| <= N tan(phi)          N the normal force; of deformable bodies with restitution the contact's usual share, see below
+//   |Fs| <= N tan(phi)          N the normal force; of deformable bodies the contact's usual share, see below
 //
 // With a coefficient of restitution e < 1 the contact returns the fraction e^2 of the energy 1/2 k d^2 that goes into it,
-// k = 2 kn / (1 + e^2). Beside the spring kn acts a force D, with r = (1 - e^2) / (1 + e^2):
+// k = 2 kn / (1 + e^2). At rest it damps what vibrates, also with e = 1. Beside the spring kn acts a force D, with
+// r = (1 - e^2) / (1 + e^2) and b = r + (1 - r) w:
 //
-//   bodies approach:  D = r kn q,        q <- q + closing of this step, 0 <= q <= s p
-//   they separate:    D = -r kn p |s|,   only while the contact itself opens; q = 0
+//   bodies approach:  D = b kn q,          q <- q + closing of this step, 0 <= q <= s p
+//   they separate:    D = -b kn p |s|,     only while the contact itself opens; q = 0
 //
 // p is the effective penetration, s = v / v0 within -1 and 1. While the bodies approach D is a spring that stores
-// 1/2 r kn q^2. Damping is what it loses when its bound s p falls, and the work of D while the contact opens. So damping
+// 1/2 b kn q^2. Damping is what it loses when its bound s p falls, and the work of D while the contact opens. So damping
 // gives no energy back, whatever the waves in the bodies do, but for the half step after the contact turns round.
 //
-//   v  = (1 - w) v_bodies + w v_contact,  v0 = max(a dt, w sqrt(a p)),  w = min(1, p_rest / p)
-//   d p_rest / dt = (p - p_rest) omega / 60,   omega^2: sum over both bodies of K / m
+//   v  = (1 - w) v_bodies + w v_contact,  v0 = max(a dt, w sqrt(a p))
+//   w = u^8,  u = min(1, 2 p_rest / p_peak),  d p_rest / dt = (p - p_rest) omega / 10
+//   omega^2: sum over both bodies of K / m
 //
 // v_bodies: speed at which the bodies approach, each moving as a whole; v_contact: at which the contact closes; a: sum of
 // the normal forces on each body over its mass; K: sum of kn of the contacts that press a body, m its mass. sqrt(p / a) and
-// 1 / omega are time scales of an oscillation. In an impact w is next to nothing, and D is there in full down to the speed
-// that the forces of one step reverse. A contact that carries for long has w = 1, and v0 is the speed that its forces reverse
-// within its depth: what is slower vibrates about its rest, and D is at most in proportion to v, as that of a dashpot with
-// r / 2 of the critical damping. If D jumped with each change of direction, so would the limit of friction, and a body
-// would creep down a slope far below its friction.
+// 1 / omega are time scales of an oscillation. p_peak is the largest p, and fades as p_rest follows p. In an impact w is next
+// to nothing, and D is there, with b = r, down to the speed that the forces of one step reverse. A contact that carries
+// for long has w = 1, and v0 is the speed that its forces reverse within its depth: what is slower vibrates about its rest,
+// and D is at most in proportion to v, as that of a dashpot with half of the critical damping. If D jumped with each
+// change of direction, so would the limit of friction, and a body would creep down a slope far below its friction. A contact
+// that opens for less than 8 / omega goes on with all its means, so low hops of a body die too.
+//
+// Where both bodies are rigid, and between tetrahedra of one body, b is r and D is 0 for e = 1.
 //
 // A sliding contact does not feel a change of its normal force at once (Prakash 1998, J. Tribol. 120, 97-102; Cochard and
 // Rice 2000, J. Geophys. Res. 105, 25891-25907). If it did, friction would feed the vibrations of a deformable body that
-// slides, and they would take a part of its friction (Adams 1998, J. Appl. Mech. 65, 470-475). So where a body is deformable
-// and e < 1, friction follows a usual share of what the bodies press with, by two means M and P of F = Fn + D:
+// slides, and they would take a part of its friction (Adams 1998, J. Appl. Mech. 65, 470-475). So where a body deforms and neither is broken,
+// friction follows a usual share of what the bodies press with, by two means M and P of F = Fn + D:
 //
-//   N = M (sum of P) / (sum of M),   u = min(1, 2 p_rest / p_peak)
-//   dM / dt = (F - M) omega / (60 u^6),   dP / dt = (F - P) omega / (4 u^6)
+//   N = (1 - w) F + w M (sum of w P) / (sum of w M)
+//   dM / dt = (F - M) omega / 60,   dP / dt = (F - P) omega / 4
 //
 // The sums go over the contacts between the two bodies before the step. So each contact has its mean share, and all together have
 // the friction of the whole normal force of two thirds of an oscillation before: on a ground that shakes, or when a load comes on at once.
-//
-// p_peak is the largest p, and fades as p_rest does. In an impact, and as long as a body bounces higher than it rests, u is
-// next to nothing, and M and P are F itself. A contact that opens for less than 2 pi / omega goes on with p_rest, p_peak, M and P.
+// In an impact, and as long as a body bounces higher than it rests, w is next to nothing, and N is F. After a longer opening M and P
+// begin with 0.
 //
 // An overlap that exists before anything has moved (d0 > 0) carries no force: with the stiffness of concrete a tenth of
 // a millimetre would throw a unit into the air.
@@ -55,6 +59,8 @@ struct ContactLaw {
   double kn = 0, ks = 0; // N/m, of the springs
   double tan_friction = 0;
   double damping_ratio = 0; // r = (1 - e^2) / (1 + e^2)
+  bool damps = false;       // else D is 0
+  bool damps_more_at_rest = false;
 };
 
 // A semi-spring keeps the stiffness with which it began to press, or with which it took over the force of a face, and any
@@ -80,8 +86,8 @@ struct ContactMotion {
   double approach = 0;                    // s of restitution: 1 the bodies approach, -1 they separate
   double acceleration = 0;                // m/s2, a of restitution
   double held_at_most = 0;                // part of the damping force that may act, part_held
-  double part_of_rest = 0;                // part of a mean over the time of rest that the step takes
-  bool deformable = false;                // one of its two bodies is, and restitution knows them
+  double omega_step = 0;                  // omega times the step
+  bool shares_friction = false;           // one of its two bodies deforms, and neither is broken
   double felt_over_usual = 1;             // these two means, summed over the contacts between its bodies
   bool in_relaxation = false;             // its steps are no times, and it finds the contact at rest
 
@@ -114,69 +120,70 @@ inline double next_reference_penetration(const Contact& old, const ContactMotion
   return old.reference_penetration + (!m.along_stretch && jump > 1.5 * m.slid.norm() ? jump : 0);
 }
 
-// q, m: how far the contact has been pressed while its bodies approached.
-inline double pressed_by_approach(const Contact& c, const ContactLaw& law) {
-  return c.damping > 0 ? c.damping / (law.damping_ratio * law.kn) : 0;
-}
-// J, stored in the force of restitution.
-inline double stored_by_damping(const Contact& c, const ContactLaw& law) {
-  return 0.5 * std::max(0.0, c.damping) * pressed_by_approach(c, law);
-}
-
 // speed / reversed, within -1 and 1.
 inline double part_of(double speed, double reversed) {
   return std::abs(speed) < reversed ? speed / reversed : std::copysign(1.0, speed);
 }
 
-// A contact that opens for less than a whole oscillation, over 1 / omega, goes on with its means.
-constexpr double time_of_opening = 6.283185307179586;
-
-// Part of the damping force, up to 1, that turns nothing round. It takes no more than 0.15 of the speed of the nodes at the contact
-// in a step: the velocity that it follows is half a step old, and central differences are stable as long as the part is below
-// 2 - 2 safety^2. In a step, normal forces change the speed of the bodies by by_bodies, and this contact that of its nodes by
-// by_nodes, m/s.
-inline double part_held(const ContactLaw& law, double speed, double by_bodies, double by_nodes) {
-  return std::abs(part_of(speed, 0.5 * by_bodies + law.damping_ratio / 0.15 * by_nodes));
-}
+// Times over 1 / omega: of the means p_rest, M and P, and of openings through which all means go on.
+constexpr double time_of_rest = 10, time_of_share = 60, time_of_feeling = 4, time_of_opening = 8;
 
 // m, of a contact before it advances: its effective penetration after the step.
 inline double pressed_now(const Contact& c, const ContactMotion& m) {
   return std::max(0.0, m.depth - c.reference_penetration);
 }
 
-// w of restitution, of a contact before it advances: 0 in an impact, 1 at rest.
-inline double part_at_rest(const Contact& c, const ContactMotion& m) {
-  const double pressed = pressed_now(c, m);
-  return pressed > c.at_rest ? c.at_rest / pressed : pressed > 0 ? 1 : 0;
+// w: 1 where a contact carries for long, next to nothing in an impact, 0 where it has just begun.
+inline double part_at_rest(const Contact& c) {
+  const double u = std::min(c.peak, 2 * c.at_rest) / c.peak, u2 = u * u, u4 = u2 * u2;
+  return c.peak > 0 ? u4 * u4 : 0;
+}
+
+// b of restitution.
+inline double part_damped(const Contact& c, const ContactLaw& law) {
+  return law.damps_more_at_rest ? law.damping_ratio + (1 - law.damping_ratio) * part_at_rest(c)
+                                : law.damping_ratio;
+}
+
+// q, m: how far the contact has been pressed while its bodies approached.
+inline double pressed_by_approach(const Contact& c, const ContactLaw& law) {
+  const double part = part_damped(c, law);
+  return c.damping > 0 && part > 0 ? c.damping / (part * law.kn) : 0;
+}
+// J, stored in the force of restitution.
+inline double stored_by_damping(const Contact& c, const ContactLaw& law) {
+  return 0.5 * std::max(0.0, c.damping) * pressed_by_approach(c, law);
+}
+
+// Part of the damping force, up to 1, that turns nothing round. It takes no more than 0.15 of the speed of the nodes at the contact
+// in a step: the velocity that it follows is half a step old, and central differences are stable as long as the part is below
+// 2 - 2 safety^2. In a step, normal forces change the speed of the bodies by by_bodies, and this contact that of its nodes by
+// by_nodes, m/s.
+inline double part_held(double damped, double speed, double by_bodies, double by_nodes) {
+  return std::abs(part_of(speed, 0.5 * by_bodies + damped / 0.15 * by_nodes));
 }
 
 // m/s, v0 of restitution, of a contact before it advances.
 inline double reversible_speed(const Contact& c, const ContactMotion& m) {
-  return std::max(m.step * m.acceleration,
-                  part_at_rest(c, m) * std::sqrt(m.acceleration * pressed_now(c, m)));
+  return std::max(m.step * m.acceleration, part_at_rest(c) * std::sqrt(m.acceleration * pressed_now(c, m)));
 }
 
-// Time of a mean over 1 / omega: some ten oscillations, twenty times as long as an impact.
-constexpr double time_of_rest = 60, time_of_feeling = 4;
-// Part of it that a step takes. omega: 1/s.
-inline double part_of_rest(double step, double omega) {
-  return std::min(1.0, step * omega / time_of_rest);
-}
-
-// Advances the mean penetration of restitution.
+// Advances the means of restitution.
 inline void advance_rest(Contact& c, const ContactMotion& m) {
   const double pressed = c.effective_penetration();
   if (m.in_relaxation)
     c.at_rest = c.peak = pressed;
-  c.at_rest += m.part_of_rest * (pressed - c.at_rest);
-  c.peak = std::max(pressed, c.peak - m.part_of_rest * c.peak);
+  const double part = std::min(1.0, m.omega_step / time_of_rest);
+  c.at_rest += part * (pressed - c.at_rest);
+  c.peak = std::max(pressed, c.peak - part * c.peak);
 }
 
-// Advances the force of restitution of a contact that is as deep as it is now. closing: m, in the step. Returns what it
-// took, J, by the trapezoidal rule; what opens further than q leaves the spring at 0.
+// Advances the force of restitution of a contact that is as deep as it is now, and its means. closing: m, in the step.
+// Returns what it took, J, by the trapezoidal rule; what opens further than q leaves the spring at 0.
 inline double advance_damping(Contact& c, const ContactLaw& law, const ContactMotion& m, double closing) {
-  const double stiffness = law.damping_ratio * law.kn, pressed = c.effective_penetration();
   const double before = c.damping, q = pressed_by_approach(c, law), stored = stored_by_damping(c, law);
+  advance_rest(c, m);
+  const double stiffness = part_damped(c, law) * law.kn, pressed = c.effective_penetration();
   if (m.approach >= 0)
     c.damping = stiffness * std::clamp(q + closing, 0.0, m.approach * pressed);
   else
@@ -191,22 +198,25 @@ inline double normal_force(const Contact& c, const ContactLaw& law) {
   return law.kn * c.effective_penetration() + c.damping;
 }
 
-// u of friction: 1 where a contact carries for long, next to nothing in an impact.
-inline double steadiness(const Contact& c) {
-  return c.peak > 2 * c.at_rest ? 2 * c.at_rest / c.peak : 1;
-}
-
-// Advances the force that friction follows, of a contact that is as deep as it is now. While it is open it keeps that force:
-// so the mean over the time in which it carries is that of the normal force, however much it bounces.
+// Advances the means that friction follows, of a contact that is as deep as it is now. While it is open it keeps them: so the
+// mean over the time in which it carries is that of the normal force, however much it bounces.
 inline void advance_felt_force(Contact& c, const ContactLaw& law, const ContactMotion& m) {
-  const double force = normal_force(c, law), u = steadiness(c), u3 = u * u * u, fades = u3 * u3;
-  if (!m.deformable || m.in_relaxation || !(c.usual_force > 0) || m.part_of_rest >= fades)
+  const double force = normal_force(c, law);
+  if (!m.shares_friction || m.in_relaxation)
     c.usual_force = c.felt_force = force;
   else if (c.effective_penetration() > 0) {
-    const double part = m.part_of_rest / fades;
-    c.usual_force += part * (force - c.usual_force);
-    c.felt_force += std::min(1.0, part * time_of_rest / time_of_feeling) * (force - c.felt_force);
+    c.usual_force += std::min(1.0, m.omega_step / time_of_share) * (force - c.usual_force);
+    c.felt_force += std::min(1.0, m.omega_step / time_of_feeling) * (force - c.felt_force);
   }
+}
+
+// N of friction.
+inline double felt_by_friction(const Contact& c, const ContactLaw& law, const ContactMotion& m) {
+  const double force = normal_force(c, law);
+  if (!m.shares_friction)
+    return force;
+  const double rests = part_at_rest(c);
+  return (1 - rests) * force + rests * c.usual_force * m.felt_over_usual;
 }
 
 // Advances the contact. Returns the energy that friction and damping took: the work of shear force and damping by the
@@ -224,14 +234,16 @@ inline ContactLoss advance(Contact& c, const ContactLaw& law, const ContactMotio
   c.normal = m.normal;
   c.depth = m.depth;
   ContactLoss loss;
-  if (law.damping_ratio > 0) {
+  if (law.damps) {
     loss.damping = advance_damping(c, law, m, -m.opened());
-    advance_rest(c, m);
+  } else { // its body has been turned rigid
+    loss.damping = stored_by_damping(c, law);
+    c.damping = 0;
   }
   advance_felt_force(c, law, m);
   const bool carries = c.effective_penetration() > 0;
   const double trial = shear.norm(),
-               limit = carries ? friction_limit(c.usual_force * m.felt_over_usual, law.tan_friction) : 0;
+               limit = carries ? friction_limit(felt_by_friction(c, law, m), law.tan_friction) : 0;
   const double by_turning = c.shear.squaredNorm() - turned.squaredNorm();
   c.shear = shear;
   if (law.ks <= 0)

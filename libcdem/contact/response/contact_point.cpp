@@ -34,13 +34,19 @@ std::array<geom::Vec3, 4> gradients_in_tet(const Model& model, const State& stat
   return {-ga - gb - gc, ga, gb, gc};
 }
 
-// area: m2; compliance: m/Pa, of both bodies.
-ContactLaw law_over(const Joint& joint, double tan_friction, double area, double compliance) {
+// Of two blocks. area: m2; compliance: m/Pa, of both.
+ContactLaw law_over(const Model& model, int block_a, int block_b, const Joint& joint, double tan_friction,
+                    double area, double compliance) {
   const ContactStiffness stiffness = contact_stiffness(joint, compliance);
   const double half = 0.5 * area; // both bodies bring theirs
   const double e2 = joint.restitution * joint.restitution;
-  return {stiffness.normal * half * 0.5 * (1 + e2), stiffness.shear * half, tan_friction,
-          (1 - e2) / (1 + e2)};
+  const bool deforms = model.blocks[block_a].rigid < 0 || model.blocks[block_b].rigid < 0;
+  return {stiffness.normal * half * 0.5 * (1 + e2),
+          stiffness.shear * half,
+          tan_friction,
+          (1 - e2) / (1 + e2),
+          deforms || e2 < 1,
+          deforms};
 }
 
 // m/Pa, of two sides in series. That of a rigid body comes from a mesh that has no meaning of its own, so it counts only
@@ -86,7 +92,8 @@ TetPairLaw tet_pair_law(const Model& model, const Joint& joint, double tan_frict
   const double modulus = model.bodies[model.blocks[block].body].material.youngs_modulus;
   const ContactStiffness face = contact_stiffness(joint, (a.height + b.height) / modulus);
   const double area = 0.5 * (a.area + b.area), e2 = joint.restitution * joint.restitution;
-  return {face.normal * (1 + e2) * area / 3, {0, face.shear * area / 3, tan_friction, (1 - e2) / (1 + e2)}};
+  return {face.normal * (1 + e2) * area / 3,
+          {0, face.shear * area / 3, tan_friction, (1 - e2) / (1 + e2), e2 < 1}};
 }
 
 namespace {
@@ -150,7 +157,8 @@ ContactLaw spring_law(const Model& model, const Joint& joint, double tan_frictio
                       const ContactTriangle& from, const ContactTriangle& to) {
   // Both sides bring their springs. The finer side takes most of the pressure, in the ratio of the areas, and both together
   // the whole of it, wherever the springs of the coarser side stand.
-  return law_over(joint, tan_friction, 2 * from.area * to.area / (from.area + to.area) / 3,
+  return law_over(model, from.block, to.block, joint, tan_friction,
+                  2 * from.area * to.area / (from.area + to.area) / 3,
                   compliance_between(model, from.block, from.compliance, to.block, to.compliance));
 }
 
@@ -159,7 +167,7 @@ ContactLaw edge_law(const Model& model, const Joint& joint, double tan_friction,
   const std::vector<ContactTriangle>& t = model.surface.triangles;
   const auto mean = [](double a, double b) { return 0.5 * (a + b); };
   const double area = mean(t[from[0]].area, t[from[1]].area) / 3 + mean(t[to[0]].area, t[to[1]].area) / 3;
-  return law_over(joint, tan_friction, area,
+  return law_over(model, t[from[0]].block, t[to[0]].block, joint, tan_friction, area,
                   compliance_between(model, t[from[0]].block,
                                      mean(t[from[0]].compliance, t[from[1]].compliance), t[to[0]].block,
                                      mean(t[to[0]].compliance, t[to[1]].compliance)));

@@ -161,8 +161,9 @@ const Record<Joint>& joint_impact() {
             .within(0.01, 1)
             .standard()
             .doc("coefficient of restitution of the contact of bodies that move far: speed after over speed "
-                 "before an impact, as far as the contact and not waves within the bodies decide it; 1: the "
-                 "contact loses nothing but by friction. Give less than 1 where deformable bodies slide"),
+                 "before an impact, as far as the contact and not waves within the bodies decide it; 1: an "
+                 "impact loses nothing but by friction. At rest contacts of deformable bodies damp what "
+                 "vibrates, whatever it is"),
         &Joint::restitution}}};
   return record;
 }

@@ -173,8 +173,7 @@ void warn_of_sliding(Session& session, ModelObject& model, const Stage& stage) {
     std::sort(bodies.begin(), bodies.end());
     if (sums.slides() && law > least && sums.done < 0.985 * law && model.told_sliding.insert(bodies).second) {
       const std::string advice =
-          !sums.joint ? "the contact a lower restitution (0.5 serves up to 45 degrees of friction), or the "
-                        "materials stiffness_damping"
+          !sums.joint ? "the contact a restitution of 0.5 or less, or the materials stiffness_damping"
                       : "the materials a stiffness_damping of 0.05 h sqrt(density / youngs_modulus), h the "
                         "size of a block; blocks of small strain have none: leave their element out";
       session.warn(of_stage(stage) + shown_pair(model.body_names[bodies[0]], model.body_names[bodies[1]]) +
