@@ -72,7 +72,7 @@ bool Stage::join_nodes() {
     const double before = energy(model, state).total();
     strain_meshes(model, state, bring_together(model, state, nodes, work.strain_step), context_.threads);
     change_nodes(cdem::join_nodes(model, std::move(state), nodes));
-    state.spent.cutting += before - energy(model, state).total();
+    context_.state.spent.cutting += before - energy(model, context_.state).total();
   }
   progress_.times.end(StepLine::cracks);
   return any;
