@@ -2,6 +2,7 @@
 
 #include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/ranks/bytes.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -52,17 +53,24 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
     ExactSum force, stiffness;
   };
   std::vector<Sums> on_rigid(model.rigid.size());
+  std::uint64_t last = 0;
+  const Joint* joint = nullptr;
+  PairForces* pair = nullptr;
   for (const Contact& c : state.contacts) {
     if (c.kind == Contact::tets) // within a block
       continue;
-    const double stiffness = c.effective_penetration() > 0 ? law_of(model, c).kn : 0,
-                 force = stiffness * c.effective_penetration();
     const auto [a, b] = blocks_of(model, c);
-    if (stiffness > 0 && shares_friction(model, work, a, b)) {
-      PairForces& pair = work.pair_forces[pair_of(a, b)];
+    if (joint == nullptr || last != pair_of(a, b)) { // contacts of a pair stand side by side
+      last = pair_of(a, b);
+      joint = contact_joint(model, a, b);
+      pair = shares_friction(model, work, a, b) ? &work.pair_forces[last] : nullptr;
+    }
+    const double stiffness = c.effective_penetration() > 0 ? normal_stiffness_of(model, *joint, c) : 0,
+                 force = stiffness * c.effective_penetration();
+    if (stiffness > 0 && pair) {
       const double rests = part_at_rest(c);
-      pair.felt += rests * c.felt_force;
-      pair.usual += rests * c.usual_force;
+      pair->felt += rests * c.felt_force;
+      pair->usual += rests * c.usual_force;
     }
     for (const int block : {a, b})
       if (const int rigid = model.blocks[block].rigid; rigid < 0) {

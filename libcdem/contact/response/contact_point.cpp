@@ -131,6 +131,15 @@ ContactArms tet_arms(const Model& model, const State& state, const Contact& c) {
   return arms;
 }
 
+// Of a spring or an edge.
+ContactLaw law_between(const Model& model, const Joint& joint, double tan_friction, const Contact& c) {
+  const ContactSurface& s = model.surface;
+  const auto [source, target] = triangles_of(c);
+  return as_stiff_as(c, c.kind == Contact::spring
+                            ? spring_law(model, joint, tan_friction, s.triangles[source], s.triangles[target])
+                            : edge_law(model, joint, tan_friction, {source, c.fragment}, {target, c.beside}));
+}
+
 } // namespace
 
 ContactLaw law_of(const Model& model, const Contact& c) {
@@ -143,14 +152,13 @@ ContactLaw law_of(const Model& model, const Contact& c) {
     law.kn = c.stiffness;
     return law;
   }
-  const ContactSurface& s = model.surface;
-  const auto [source, target] = triangles_of(c);
-  const ContactTriangle &from = s.triangles[source], &to = s.triangles[target];
-  const Joint& joint = *contact_joint(model, from.block, to.block);
-  const double tan_friction = geom::portable::tan(joint.friction_angle);
-  return as_stiff_as(c, c.kind == Contact::spring
-                            ? spring_law(model, joint, tan_friction, from, to)
-                            : edge_law(model, joint, tan_friction, {source, c.fragment}, {target, c.beside}));
+  const auto [a, b] = blocks_of(model, c);
+  const Joint& joint = *contact_joint(model, a, b);
+  return law_between(model, joint, geom::portable::tan(joint.friction_angle), c);
+}
+
+double normal_stiffness_of(const Model& model, const Joint& joint, const Contact& c) {
+  return c.stiffness > 0 ? c.stiffness : law_between(model, joint, 0, c).kn;
 }
 
 ContactLaw spring_law(const Model& model, const Joint& joint, double tan_friction,
