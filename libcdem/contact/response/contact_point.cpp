@@ -34,7 +34,7 @@ std::array<geom::Vec3, 4> gradients_in_tet(const Model& model, const State& stat
   return {-ga - gb - gc, ga, gb, gc};
 }
 
-// Of two blocks. area: m2; compliance: m/Pa, of both.
+// Law between two blocks. area: m2; compliance: m/Pa, of both.
 ContactLaw law_over(const Model& model, int block_a, int block_b, const Joint& joint, double tan_friction,
                     double area, double compliance) {
   const ContactStiffness stiffness = contact_stiffness(joint, compliance);
@@ -131,7 +131,7 @@ ContactArms tet_arms(const Model& model, const State& state, const Contact& c) {
   return arms;
 }
 
-// Of a spring or an edge.
+// Law of a spring or an edge.
 ContactLaw law_between(const Model& model, const Joint& joint, double tan_friction, const Contact& c) {
   const ContactSurface& s = model.surface;
   const auto [source, target] = triangles_of(c);

@@ -27,7 +27,7 @@ int chunk_size(const SplitMesh& split, const Bonding& bonding) {
 // Gives the nodes that a chunk uses their places: its own first, the others as they come.
 class Places {
 public:
-  // Of chunks that use these nodes of the model alone.
+  // Only chunks that use these nodes of the model count.
   explicit Places(Range nodes) : first_(nodes.begin), place_(static_cast<std::size_t>(nodes.size()), -1) {}
   void start(Range own) {
     for (const int node : others_)
