@@ -1,7 +1,7 @@
 #include "libcdem/contact/contact_forces.hpp"
 
 #include "libcdem/bond/fragments.hpp"
-#include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/block_travel.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
@@ -23,48 +23,41 @@ namespace {
 // Chunks of rows a thread computes before what they found is added up: more than a few leave the cache.
 constexpr std::int64_t chunks_at_a_time = 16;
 
-// The furthest that a nodeof each mover goes in a step of this length. True when one has left its skin.
+// The furthest that a node of each block goes in a step of this length. True when one has left its skin.
 bool add_displacements(const Model& model, const State& state, ContactWork& work, int threads) {
-  if (work.movers.count() == 0)
-    return true; // not searched yet
-  MoverMotion& motion = work.motion;
+  if (work.search.count == 0)
+    return true;
+  BlockTravel& travel = work.travel;
   set_displacements(model, state, work, threads);
-  for (std::size_t m = 0; m < motion.travelled.size(); ++m)
-    motion.travelled[m] += motion.last_displacement[m];
-  for (std::size_t b = 0; b < work.rigid_pairs.path.size(); ++b) // rounded up
-    if (motion.last_displacement[b] > 0)
-      work.rigid_pairs.path[b] = (work.rigid_pairs.path[b] + motion.last_displacement[b]) *
-                                 (1 + std::numeric_limits<double>::epsilon());
+  for (std::size_t b = 0; b < travel.travelled.size(); ++b) {
+    const double way = travel.last_displacement[b];
+    travel.travelled[b] += way;
+    if (way > 0) // rounded up
+      work.rigid_pairs.path[b] =
+          (work.rigid_pairs.path[b] + way) * (1 + std::numeric_limits<double>::epsilon());
+  }
   set_poses(model, state, work.rigid_pairs);
   if (work.step > 0)
-    motion.last_step = work.step;
+    travel.last_step = work.step;
   ++work.search.steps_since;
   ++work.rigid_pairs.steps;
-  set_drifts(model, state, work, threads);
-  bool out = false;
-  for (int m = 0; m < work.movers.count(); ++m) {
-    const bool fragment = m >= static_cast<int>(model.blocks.size());
-    if (!fragment && work.movers.broken[m])
-      continue;
-    const double gone = gone_at_most(model, work.motion, m);
-    if (gone > work.search.undefined_pair_margin || (!fragment && gone > motion.skin[m]))
-      out = work.search.blocks_due = true;
-    out = out || gone > motion.skin[m];
-  }
+  for (std::size_t b = 0; b < travel.travelled.size(); ++b)
+    if (travel.travelled[b] > std::min(travel.skin[b], work.search.undefined_pair_margin))
+      work.search.blocks_due = true;
   if (any_left_skin(work.rigid_pairs))
-    out = work.search.pairs_due = true;
-  return out;
+    work.search.pairs_due = true;
+  return work.search.blocks_due || work.search.pairs_due;
 }
 
 // Marks the edges that have a contact before the step.
-void mark_touched_edges(const std::vector<Contact>& contacts, const Movers& movers, const SurfaceEdges& edges,
+void mark_touched_edges(const Model& model, const std::vector<Contact>& contacts, const SurfaceEdges& edges,
                         EdgesTouched& touched) {
   touched.edges.assign(edges.all.size(), 0);
-  touched.movers.assign(movers.count(), 0);
+  touched.blocks.assign(model.blocks.size(), 0);
   const auto mark = [&](int id) {
     for (int e = edges.begin[id / 3]; e < edges.begin[id / 3 + 1]; ++e)
       if (edges.all[e].id() == id)
-        touched.edges[e] = touched.movers[movers.of_triangle[id / 3]] = 1;
+        touched.edges[e] = touched.blocks[model.surface.triangles[id / 3].block] = 1;
   };
   for (const Contact& c : contacts)
     if (c.kind == Contact::edge) {
@@ -80,7 +73,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   if (model.surface.empty() || !own.due)
     return sums;
   own.search.blocks_due = own.search.blocks_due || own.options.looks_at_all;
-  std::fill(own.movers.changed.begin(), own.movers.changed.end(), Change::none);
+  std::fill(own.fragments.changed.begin(), own.fragments.changed.end(), 0);
   const bool out_of_skin = add_displacements(model, state, own, threads) || own.options.looks_at_all,
              fragments_due = own.search.fragments_due, known = own.search.history_complete,
              anew = own.search.anew;
@@ -100,7 +93,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   if (fragments_due) {
     const auto renew = [&](Contact& c) {
       if (c.kind == Contact::spring)
-        c.fragment = own.movers.fragment_of_triangle[c.target];
+        c.fragment = own.fragments.of_triangle[c.target];
     };
     for (Contact& c : state.contacts)
       renew(c);
@@ -117,7 +110,7 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
   const std::int64_t n_springs = chunks(springs);
   const std::int64_t n_chunks = n_springs + chunks(edges);
   own.chunks.resize(static_cast<std::size_t>(chunks_at_a_time * threads));
-  mark_touched_edges(state.contacts, own.movers, own.edges, own.edges_touched);
+  mark_touched_edges(model, state.contacts, own.edges, own.edges_touched);
   if (own.damps)
     sum_block_forces(model, state, own);
   if (own.damps && own.knows_motions)
@@ -141,13 +134,13 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
         const std::int64_t r = begin + __builtin_ctzll(bits);
         ContactRow& row = own.rows[kind].all[r];
         const bool hindered = row.hindered;
-        if (!hindered && !own.options.looks_at_all && sleeps_on(own, row, asleep.recheck_distance[r]))
+        if (!hindered && !own.options.looks_at_all && sleeps_on(model, own, row))
           continue;
         edge ? evaluation.edges(row, candidates) : evaluation.springs(row, candidates);
         if (row.pair >= 0)
           asleep.of_pairs.until[row.place] = row.recheck_distance;
         else
-          fall_asleep(own, static_cast<int>(model.blocks.size()), row, asleep.recheck_distance[r]);
+          asleep.recheck_distance[r] = row.several_blocks ? 0 : row.recheck_distance;
         if (row.hindered != hindered)
           asleep.hindered[begin / contact_rows_per_chunk] ^= bits & -bits;
       }

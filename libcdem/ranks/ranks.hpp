@@ -36,7 +36,7 @@ public:
 
   // Returns what each gives, by rank. Messages on one subject should be about as long as the time before: they are sent
   // in one piece then.
-  enum class Subject { any, sums, contacts, drifts, pressed, rigid, looks, count };
+  enum class Subject { any, sums, contacts, pressed, rigid, looks, count };
   virtual std::vector<std::string> gather(const std::string& mine, Subject = Subject::any) = 0;
 
   // Sends each rank a text of its own, to[rank]; returns what each has sent this one, by rank.

@@ -89,7 +89,7 @@ void ContactUpdate::start_anew(const Model& model, const State& state, ContactWo
   ContactWork before = std::move(work);
   work = {};
   start_contact(model, work);
-  work.motion.last_step = before.motion.last_step;
+  work.travel.last_step = before.travel.last_step;
   work.options = before.options;
   work.damps = before.damps;
   work.shared = before.shared;

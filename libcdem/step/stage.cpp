@@ -259,7 +259,7 @@ void Stage::look_at_sliding() {
   see_whole();
   if (dry)
     shares_.gather(work.bond);
-  context_.sliding->look(context_.model, context_.state, work.bond, work.contact.movers.broken,
+  context_.sliding->look(context_.model, context_.state, work.bond, work.contact.fragments.broken,
                          context_.state.time - since);
 }
 

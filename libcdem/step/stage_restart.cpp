@@ -71,7 +71,7 @@ void Stage::note(RestartPoint& point, std::vector<double> loop_state) const {
   StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
   StateShares::copy(work.bond.stretch, point.stretch, shares.points());
   StateShares::copy(work.bond.viscous, point.viscous, shares.points());
-  point.contact_step = work.contact.motion.last_step;
+  point.contact_step = work.contact.travel.last_step;
   point.strain_step = work.strain_step;
   point.near = work.near.crack_known ? near_of_all_ranks(work) : std::vector<std::uint8_t>();
   point.slid = slid_;
@@ -109,7 +109,7 @@ void Stage::go_on_from(const RestartPoint& from) {
     return;
   begins_ = false;
   ContactUpdate::go_on(work.contact);
-  work.contact.motion.last_step = from.contact_step;
+  work.contact.travel.last_step = from.contact_step;
   work.strain_step = from.strain_step;
   if (!from.near.empty())
     take_near_of_all(from.near, work);

@@ -1,6 +1,6 @@
 // Semi-edges that broken faces bring: those of the pieces, as if they had never been one.
 #include "libcdem/bond/fragments.hpp"
-#include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/contact_fragments.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libgeom/mesh/box_mesh.hpp"
@@ -131,8 +131,8 @@ std::vector<Segment> edges_of(System s) {
   cdem::ContactWork work;
   cdem::start_contact(s.model, work);
   cdem::tell_of_bonds(s.model, s.state, work.search.told_due);
-  cdem::find_fragments(s.model, s.state, work.movers, work.motion);
-  const std::vector<cdem::ContactEdge> edges = cdem::find_semi_edges(s.model, s.state, work.movers).all;
+  cdem::find_contact_fragments(s.model, s.state, work.fragments);
+  const std::vector<cdem::ContactEdge> edges = cdem::find_semi_edges(s.model, s.state, work.fragments).all;
   CHECK(std::is_sorted(edges.begin(), edges.end(),
                        [](const auto& a, const auto& b) { return a.id() < b.id(); }));
   const auto rounded = [](const Vec3& x) {
@@ -197,8 +197,8 @@ TEST_CASE(
     cdem::ContactWork work;
     cdem::start_contact(s.model, work);
     cdem::tell_of_bonds(s.model, s.state, work.search.told_due);
-    cdem::find_fragments(s.model, s.state, work.movers, work.motion);
-    return cdem::find_semi_edges(s.model, s.state, work.movers, std::move(known));
+    cdem::find_contact_fragments(s.model, s.state, work.fragments);
+    return cdem::find_semi_edges(s.model, s.state, work.fragments, std::move(known));
   };
   std::vector<cdem::EdgesOfBroken> known;
   std::size_t fewest = std::numeric_limits<std::size_t>::max(), most = 0;

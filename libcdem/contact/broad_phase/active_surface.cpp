@@ -1,8 +1,7 @@
 #include "libcdem/contact/broad_phase/active_surface.hpp"
 
+#include "libcdem/contact/broad_phase/block_travel.hpp"
 #include "libcdem/contact/broad_phase/candidates.hpp"
-#include "libcdem/contact/broad_phase/movers.hpp"
-#include "libcdem/contact/broad_phase/renewed.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 
@@ -16,8 +15,6 @@ constexpr double thinnest_skin = 0.001, thickest_skin = 0.1;
 // Steps that a block can go on at its pace before it leaves its skin, and what of the fastest block's pace the others
 // are trusted to get to.
 constexpr double skin_steps = 250, pace_of_others = 0.25;
-// The same of fragments.
-constexpr double steps_of_fragments = 150;
 // Searches that follow each other within fewer steps than this make skins twice as thick, those after more halve them.
 constexpr std::int64_t early = 50, late = 150;
 constexpr int most_widenings = 6;
@@ -29,13 +26,13 @@ double gap(const geom::Box& a, const geom::Box& b) {
 
 // m, of blocks whose pace is greater, a quarter of what parts their boxes from all others: their boxes with three skins
 // around them then meet none. 0 for the others, and for further ones when there are very many.
-std::vector<double> clearance_of_fast_bodies(const Model& model, const State& state, const Movers& movers,
+std::vector<double> clearance_of_fast_bodies(const Model& model, const State& state,
                                              const std::vector<double>& paces, double pace) {
   const ContactSurface& s = model.surface;
   std::vector<double> clearance(model.blocks.size(), 0.0);
   std::vector<int> fast;
   for (int b = 0; b < static_cast<int>(clearance.size()); ++b)
-    if (paces[b] > pace && !movers.broken[b])
+    if (paces[b] > pace)
       fast.push_back(b);
   fast.resize(std::min(fast.size(), most_boxes_compared / clearance.size()));
   if (fast.empty())
@@ -59,27 +56,21 @@ double usual(const SurfaceSizes& sizes, const ContactTriangle& t) {
   return sizes.shallow[t.block] / shallow_ratio;
 }
 
-} // namespace
-
-namespace {
-
-// pace: m in a step, per mover.
+// pace: m in a step, per block.
 void choose_skins_of_blocks(const Model& model, const State& state, const std::vector<double>& pace,
                             ContactWork& work) {
   Searches& search = work.search;
-  MoverMotion& motion = work.motion;
+  BlockTravel& travel = work.travel;
   const auto blocks = static_cast<int>(model.blocks.size());
   const double most = thickest_skin * work.sizes.usual_height;
   bool too_thin = false;
   for (int b = 0; b < blocks; ++b)
-    too_thin =
-        too_thin || (!work.movers.broken[b] && motion.travelled[b] > motion.skin[b] && motion.skin[b] < most);
+    too_thin = too_thin || (travel.travelled[b] > travel.skin[b] && travel.skin[b] < most);
   if (search.count > 0 && search.steps_since < early && too_thin)
     search.skin_doublings = std::min(search.skin_doublings + 1, most_widenings);
   else if (search.steps_since > late)
     search.skin_doublings = std::max(search.skin_doublings - 1, 0);
-  const std::vector<double> alone =
-      clearance_of_fast_bodies(model, state, work.movers, pace, most / skin_steps);
+  const std::vector<double> alone = clearance_of_fast_bodies(model, state, pace, most / skin_steps);
   double fastest = 0;
   for (int b = 0; b < blocks; ++b)
     if (alone[b] <= most)
@@ -88,34 +79,17 @@ void choose_skins_of_blocks(const Model& model, const State& state, const std::v
       std::max(thinnest_skin * work.sizes.usual_height, pace_of_others * skin_steps * fastest) *
       static_cast<double>(1 << search.skin_doublings);
   for (int b = 0; b < blocks; ++b)
-    motion.skin[b] = std::min(std::max(least, skin_steps * pace[b]), std::max(most, alone[b]));
+    travel.skin[b] = std::min(std::max(least, skin_steps * pace[b]), std::max(most, alone[b]));
 }
 
 } // namespace
 
-std::vector<double> choose_skins(const Model& model, const State& state, ContactWork& work,
-                                 const Renewed& renewed) {
-  MoverMotion& motion = work.motion;
-  std::vector<double> pace = speeds_of_movers(model, state, work, 1); // m/s, then m in a step
-  for (double& of_mover : pace)
-    of_mover *= motion.last_step;
-  if (renewed.all)
+std::vector<double> choose_skins(const Model& model, const State& state, ContactWork& work, bool all) {
+  std::vector<double> pace = speeds_of_blocks(model, state, work, 1); // m/s, then m in a step
+  for (double& of_block : pace)
+    of_block *= work.travel.last_step;
+  if (all)
     choose_skins_of_blocks(model, state, pace, work);
-  const auto blocks = static_cast<int>(model.blocks.size());
-  for (int b = 0; b < blocks; ++b)
-    if (work.movers.broken[b])
-      motion.skin[b] = 0; // the thickest_skin of its fragments
-  double mean = 0;        // m in a step, of fragments
-  for (int m = blocks; m < work.movers.count(); ++m)
-    mean += pace[m] / (work.movers.count() - blocks);
-  for (int m = blocks; m < work.movers.count(); ++m) {
-    if (renewed.movers[m])
-      motion.skin[m] =
-          std::clamp(steps_of_fragments * std::max(pace[m], mean), thinnest_skin * work.sizes.usual_height,
-                     thickest_skin * work.sizes.usual_height);
-    double& most = motion.skin[work.movers.block[m]];
-    most = std::max(most, motion.skin[m]);
-  }
   return pace;
 }
 
@@ -127,18 +101,9 @@ double far_at_first(const SurfaceSizes& sizes, const ContactTriangle& t) {
   return depth_of(sizes, t) + thickest_skin * usual(sizes, t);
 }
 
-SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work,
-                           const Renewed& renewed)
-    : surface_(model.surface), work_(work), whole_(work.movers.broken), deepest_(model.blocks.size(), 0.0),
-      at_least_(model.blocks.size()), allowed_(work.motion.skin) {
-  // A fragment stays within its skin around where it was searched, and may go back all the way through that place.
-  for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m)
-    if (!renewed.movers[m])
-      allowed_[m] += gone_at_most(model, work.motion, m);
-  for (int m = static_cast<int>(model.blocks.size()); m < work.movers.count(); ++m) {
-    double& most = allowed_[work.movers.block[m]]; // of a block the most of its fragments
-    most = std::max(most, allowed_[m]);
-  }
+SearchMargin::SearchMargin(const Model& model, const State& state, const ContactWork& work)
+    : surface_(model.surface), work_(work), whole_(work.fragments.broken), deepest_(model.blocks.size(), 0.0),
+      at_least_(model.blocks.size()) {
   if (!work.search.history_complete)
     std::fill(whole_.begin(), whole_.end(), 1);
   for (const Contact& c : state.contacts) {
@@ -158,15 +123,15 @@ bool ActiveSurface::finite() const {
                      [](const geom::Box& box) { return box.min.allFinite() && box.max.allFinite(); });
 }
 
-ActiveSurface active_surface(const Model& model, const State& state, const Movers& movers,
-                             const SearchMargin& margins, const Renewed& renewed, int threads) {
+ActiveSurface active_surface(const Model& model, const State& state, const ContactFragments& fragments,
+                             const SearchMargin& margins, int threads) {
   const ContactSurface& s = model.surface;
   ActiveSurface part;
   part.block_begin.push_back(0);
   part.place.assign(s.triangles.size(), -1);
   for (std::size_t b = 0; b + 1 < s.block_begin.size(); ++b) {
     for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t)
-      if (movers.active[t]) {
+      if (fragments.active[t]) {
         part.place[t] = static_cast<int>(part.triangles.size());
         part.triangles.push_back(t);
       }
@@ -174,12 +139,6 @@ ActiveSurface active_surface(const Model& model, const State& state, const Mover
   }
   part.facets.resize(part.triangles.size());
   part.boxes.resize(part.triangles.size());
-  for (const int t : part.triangles) {
-    const int mover = movers.of_triangle[t];
-    part.source_searched.push_back(
-        static_cast<char>(renewed.movers[mover] || movers.changed[t] == Change::surface));
-    part.target_searched.push_back(static_cast<char>(renewed.movers[mover] || renewed.surfaced[mover]));
-  }
   part.block_boxes.resize(part.block_begin.size() - 1);
   part.outlines.resize(part.block_boxes.size());
   for_chunks(static_cast<std::int64_t>(part.block_boxes.size()), threads, [&](std::int64_t b) {

@@ -8,27 +8,25 @@
 
 namespace cdem {
 
-struct Renewed; // broad_phase/renewed.hpp
+// Writes BlockTravel::skin where all are searched: thin for what hardly moves, so that little is near; thick for what flies by
+// itself. Returns how far each block moves in a step, m.
+std::vector<double> choose_skins(const Model&, const State&, ContactWork&, bool all);
 
-// Writes MoverMotion::skin: thin for what hardly moves, so that little is near; thick for what flies by itself. Movers are
-// known; those that are searched. Returns how far each mover moves in a step, m.
-std::vector<double> choose_skins(const Model&, const State&, ContactWork&, const Renewed&);
-
-// m, how far two movers may move before they are searched again: each by its own skin, or both together by that of a rigid
+// m, how far two blocks may move before they are searched again: each by its own skin, or both together by that of a rigid
 // pair, of which each has half.
 class Skins {
 public:
-  explicit Skins(const std::vector<double>& of_movers) : of_movers_(&of_movers) {}
-  Skins(const std::vector<double>& of_movers, double of_pair) : of_movers_(&of_movers), of_pair_(of_pair) {}
+  explicit Skins(const std::vector<double>& of_blocks) : of_blocks_(&of_blocks) {}
+  Skins(const std::vector<double>& of_blocks, double of_pair) : of_blocks_(&of_blocks), of_pair_(of_pair) {}
 
   bool of_pair() const { return of_pair_ >= 0; }
-  double of(int mover) const { return of_pair() ? 0.5 * of_pair_ : (*of_movers_)[mover]; }
+  double of(int block) const { return of_pair() ? 0.5 * of_pair_ : (*of_blocks_)[block]; }
   double between(int a, int b) const { return of(a) + of(b); }
-  // What boxes that hold the skin of a mover are to be grown by.
-  double beyond_own(int mover) const { return of_pair() ? of(mover) - (*of_movers_)[mover] : 0; }
+  // What boxes that hold the skin of a block are to be grown by.
+  double beyond_own(int block) const { return of_pair() ? of(block) - (*of_blocks_)[block] : 0; }
 
 private:
-  const std::vector<double>* of_movers_; // m, per mover
+  const std::vector<double>* of_blocks_; // m, per block
   double of_pair_ = -1;                  // m; -1: each by its own
 };
 
@@ -41,10 +39,7 @@ double far_at_first(const SurfaceSizes&, const ContactTriangle&);
 // Largest depth of a contact between two blocks for which the search allows, m.
 class SearchMargin {
 public:
-  SearchMargin(const Model&, const State&, const ContactWork&, const Renewed&);
-
-  // m, per mover: no node of it goes further from where it is now before it is searched next.
-  const std::vector<double>& allowed() const { return allowed_; }
+  SearchMargin(const Model&, const State&, const ContactWork&);
 
   double operator()(const ContactTriangle& t) const {
     return std::max(whole_[t.block] ? depth_of(work_.sizes, t) : 0, at_least_[t.block]);
@@ -53,7 +48,8 @@ public:
   double known(int block_a, int block_b) const { return std::min(deepest_[block_a], deepest_[block_b]); }
   // What a triangle's box has to hold around it for it to meet another before the next search.
   double margin(int triangle) const {
-    return allowed_[work_.movers.of_triangle[triangle]] + (*this)(surface_.triangles[triangle]);
+    const ContactTriangle& t = surface_.triangles[triangle];
+    return work_.travel.skin[t.block] + (*this)(t);
   }
 
 private:
@@ -62,7 +58,6 @@ private:
   std::vector<char> whole_;     // per block: anything may stand in it, as where a stage begins or faces break
   std::vector<double> deepest_; // m, per block, of the contacts that are known
   std::vector<double> at_least_; // m, per block
-  std::vector<double> allowed_;
 };
 
 // A triangle where it is now.
@@ -72,19 +67,17 @@ struct Facet {
 };
 
 struct ActiveSurface {
-  std::vector<int> triangles;   // by block
-  std::vector<int> place;       // per triangle of the model: its number here; -1: it is not active
-  std::vector<int> block_begin; // (n_blocks + 1) into triangles
-  std::vector<Facet> facets;    // per triangle
-  std::vector<geom::Box> boxes; // per triangle, with its margin
-  // Per triangle: what is near it in other blocks is searched, as a source and as a target.
-  std::vector<char> source_searched, target_searched;
+  std::vector<int> triangles;         // by block
+  std::vector<int> place;             // per triangle of the model: its number here; -1: it is not active
+  std::vector<int> block_begin;       // (n_blocks + 1) into triangles
+  std::vector<Facet> facets;          // per triangle
+  std::vector<geom::Box> boxes;       // per triangle, with its margin
   std::vector<geom::Box> block_boxes; // per block, with margins
   std::vector<geom::Box> outlines;    // per block, without
 
   bool finite() const;
 };
-ActiveSurface active_surface(const Model&, const State&, const Movers&, const SearchMargin&, const Renewed&,
+ActiveSurface active_surface(const Model&, const State&, const ContactFragments&, const SearchMargin&,
                              int threads);
 
 } // namespace cdem

@@ -21,16 +21,14 @@ struct Bar {
 };
 
 // Either edge of a rigid pair may turn by all that the two move.
-Bar bar_of(const Model& model, const State& state, const ContactWork& work, const Skins& skins,
-           const ContactEdge& e) {
+Bar bar_of(const Model& model, const State& state, const Skins& skins, const ContactEdge& e) {
   Bar bar;
   bar.x0 = place_of(model, state, e.nodes[0]);
   bar.x1 = place_of(model, state, e.nodes[1]);
   const double length = (bar.x1 - bar.x0).norm();
   bar.along = (bar.x1 - bar.x0) / length;
   bar.into = into_faces(model, state, e, bar.x0, bar.x1);
-  for (const int t : e.triangles) // its two faces may be of two fragments that still hold together
-    bar.skin = std::max(bar.skin, skins.of(work.movers.of_triangle[t]));
+  bar.skin = skins.of(model.surface.triangles[e.triangles[0]].block);
   const double moves = skins.of_pair() ? 2 * bar.skin : bar.skin;
   bar.turns = 4 * moves / length; // twice what its ends can make of it
   for (int i = 0; i < 2; ++i) {
@@ -93,10 +91,10 @@ public:
   int triangle(std::size_t k) const { return work_.edges.all[edges_[k]].triangles[0]; }
   const Bar& operator[](std::size_t k) {
     if (!bars_[k])
-      bars_[k] = bar_of(model_, state_, work_, skins_, work_.edges.all[edges_[k]]);
+      bars_[k] = bar_of(model_, state_, skins_, work_.edges.all[edges_[k]]);
     return *bars_[k];
   }
-  double skin(std::size_t k) const { return skins_.of(work_.movers.of_triangle[triangle(k)]); }
+  double skin(std::size_t k) const { return skins_.of(model_.surface.triangles[triangle(k)].block); }
 
 private:
   const Model& model_;
@@ -163,7 +161,7 @@ std::vector<Near> near_edges_within(const Model& model, const State& state, cons
   }
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  Bars bars(model, state, work, Skins(margins.allowed()));
+  Bars bars(model, state, work, Skins(work.travel.skin));
   geom::Box everywhere;
   std::swap(everywhere.min, everywhere.max);
   for (const int t : triangles)

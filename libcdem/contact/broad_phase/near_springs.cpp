@@ -1,5 +1,5 @@
 #include "libcdem/contact/broad_phase/candidates.hpp"
-#include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/contact_fragments.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
@@ -29,9 +29,8 @@ public:
   void add(const Pairs& pairs, std::size_t begin, std::size_t end, std::vector<Near>& out) {
     const int source = pairs[begin].first;
     const ContactTriangle &from = triangle(source), &first = triangle(pairs[begin].second);
-    const int other = mover(pairs[begin].second);
-    const double skins = skins_.between(mover(source), other);
-    gives_ = gives_of(model_, work_, first.block, other);
+    const double skins = skins_.between(from.block, first.block);
+    gives_ = gives_of(model_, work_, first.block, fragment(pairs[begin].second));
     double margin_of_targets = 0, one_place_of_targets = 0; // the largest
     for (std::size_t i = begin; i < end; ++i) {
       const ContactTriangle& to = triangle(pairs[i].second);
@@ -74,7 +73,7 @@ public:
 
 private:
   const ContactTriangle& triangle(int place) const { return s_.triangles[active_.triangles[place]]; }
-  int mover(int place) const { return work_.movers.of_triangle[active_.triangles[place]]; }
+  int fragment(int place) const { return work_.fragments.number_of_triangle[active_.triangles[place]]; }
   // m, within which places count as one with the nearest.
   double one_place(const ContactTriangle& to) const { return gives_ * to.height; }
 
@@ -110,7 +109,7 @@ private:
           may_get_into(model_, work_, active_, spring[corner], triangle(pairs[begin].first).block,
                        triangle(pairs[begin].second).block, skins_);
     }
-    const bool of_tets = of_several_tets(model_, work_.movers, mover(pairs[begin].second));
+    const bool of_tets = of_several_tets(work_.fragments, fragment(pairs[begin].second));
     std::array<NearestOfTets, 3> of_surface;
     nearest_ = {};
     distance_.clear();
@@ -189,7 +188,7 @@ std::vector<Near> near_springs(const Model& model, const State& state, const Con
                                const SearchMargin& margins, const ActiveSurface& active, Pairs& pairs,
                                const Skins& skins) {
   const auto fragment = [&](const std::pair<int, int>& p) {
-    return work.movers.fragment_of_triangle[active.triangles[p.second]];
+    return work.fragments.of_triangle[active.triangles[p.second]];
   };
   sort_by_source(pairs, fragment);
   std::vector<Near> out;

@@ -67,12 +67,7 @@ void look(const Model& model, const ContactWork& work, const ActiveSurface& acti
     return;
   const double further = 2 * skins.between(one, other);
   around = grown(around, further);
-  std::vector<int> targets = inside(active, other, by_other, around);
-  if (!skins.of_pair() &&
-      std::none_of(sources.begin(), sources.end(), [&](int i) { return active.source_searched[i] != 0; }))
-    targets.erase(
-        std::remove_if(targets.begin(), targets.end(), [&](int i) { return !active.target_searched[i]; }),
-        targets.end());
+  const std::vector<int> targets = inside(active, other, by_other, around);
   each_meeting(boxes_of(active, sources, by_one), further, boxes_of(active, targets, by_other),
                [&](std::size_t i, std::size_t j) { pairs.emplace_back(sources[i], targets[j]); });
 }
@@ -150,7 +145,7 @@ NearWithin near_within(const Model& model, const ContactWork& work, const Search
                                active.boxes.begin() + active.block_begin[block + 1]);
   const auto strangers = [&](int i, int j) { // by their boxes
     const int a = active.triangles[begin + i], b = active.triangles[begin + j];
-    return work.movers.fragment_of_triangle[a] != work.movers.fragment_of_triangle[b] ||
+    return work.fragments.of_triangle[a] != work.fragments.of_triangle[b] ||
            apart_at_first(model, work.sizes, a, b);
   };
   NearWithin near;
@@ -165,7 +160,7 @@ NearWithin near_within(const Model& model, const ContactWork& work, const Search
   if (near.meeting.empty())
     return near;
   for (geom::Box& box : boxes)
-    box = grown(box, 2 * work.motion.skin[block]);
+    box = grown(box, 2 * work.travel.skin[block]);
   for (const auto& [i, j] : geom::touching_pairs(boxes, meets, strangers)) {
     const int a = begin + i, b = begin + j;
     if (meets[i])

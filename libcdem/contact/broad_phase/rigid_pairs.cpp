@@ -1,7 +1,6 @@
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 
-#include "libcdem/contact/broad_phase/movers.hpp"
-#include "libcdem/contact/broad_phase/renewed.hpp"
+#include "libcdem/contact/broad_phase/contact_fragments.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 
@@ -18,6 +17,8 @@ using Quaternion = std::array<double, 4>;
 constexpr double rounding = 1e-12;
 // The thinnest skin of a pair and the thickest, over the usual height of a tet. Steps that a pair can go on at its pace.
 constexpr double thinnest = 0.01, thickest = 0.2, steps_ahead = 250;
+// Share of a skin: a pair with less left is searched with the first that leaves its own.
+constexpr double searched_with_others = 0.6;
 // A pair that leaves its skin within fewer steps than this gets one twice as thick, after more one half as thick.
 constexpr std::int64_t few_steps = 50, many_steps = 150;
 constexpr int most_doublings = 5;
@@ -95,7 +96,7 @@ double relative_pace(const Model& model, const State& state, const ContactWork& 
   const geom::Vec3 spin_a = spin(model.rigid[rigid_a], one, 0), spin_b = spin(model.rigid[rigid_b], other, 0),
                    arm = vec(other.centroid) - vec(one.centroid);
   const double relative =
-      work.motion.last_step * ((vec(other.velocity) - vec(one.velocity) - spin_a.cross(arm)).norm() +
+      work.travel.last_step * ((vec(other.velocity) - vec(one.velocity) - spin_a.cross(arm)).norm() +
                                (spin_b - spin_a).norm() * work.rigid_pairs.radius[b]);
   const double sum = pace[a] + pace[b];
   return std::isfinite(relative) ? std::min(relative, sum) : sum;
@@ -129,7 +130,8 @@ double used_of_skin(const RigidPairs& pairs, const RigidPair& pair) {
 
 } // namespace
 
-void find_pairwise(const Model& model, const State& state, const Movers& movers, RigidPairs& pairs) {
+void find_pairwise(const Model& model, const State& state, const ContactFragments& fragments,
+                   RigidPairs& pairs) {
   const auto blocks = static_cast<int>(model.blocks.size());
   const ContactSurface& s = model.surface;
   const bool first = pairs.pose.empty();
@@ -139,20 +141,20 @@ void find_pairwise(const Model& model, const State& state, const Movers& movers,
     pairs.planes.resize(model.blocks.size());
   }
   pairs.pairwise.assign(model.blocks.size(), 0);
-  std::vector<int> fragments;
-  const auto fragment = [&](int b) { return movers.fragment_of_triangle[s.block_begin[b]]; };
+  std::vector<int> known;
+  const auto fragment = [&](int b) { return fragments.of_triangle[s.block_begin[b]]; };
   for (int b = 0; b < blocks; ++b) {
     const Block& block = model.blocks[b];
     pairs.pairwise[b] = static_cast<char>(block.rigid >= 0 && block.convex() && block.meshed &&
-                                          !movers.broken[b] && s.block_begin[b] < s.block_begin[b + 1]);
+                                          !fragments.broken[b] && s.block_begin[b] < s.block_begin[b + 1]);
     if (s.block_begin[b] < s.block_begin[b + 1])
-      fragments.push_back(fragment(b));
+      known.push_back(fragment(b));
   }
-  std::sort(fragments.begin(), fragments.end());
+  std::sort(known.begin(), known.end());
   for (int b = 0; b < blocks; ++b) {
     if (!pairs.pairwise[b])
       continue;
-    const auto [begin, end] = std::equal_range(fragments.begin(), fragments.end(), fragment(b));
+    const auto [begin, end] = std::equal_range(known.begin(), known.end(), fragment(b));
     pairs.pairwise[b] = static_cast<char>(end - begin == 1); // else its bonds hold others
     if (pairs.radius[b] == 0) {
       pairs.radius[b] = radius_of(model, state, b);
@@ -220,7 +222,7 @@ bool any_left_skin(RigidPairs& pairs) {
 }
 
 double slack_of(const Model& model, const ContactWork& work, int block) {
-  return 4 * gives_of(model, work, block, block) * model.blocks[block].size;
+  return 4 * gives_of(model, work, block, -1) * model.blocks[block].size;
 }
 
 PairsSearched pairs_to_search(const Model& model, const State& state, const ContactWork& work,
@@ -283,7 +285,7 @@ void keep_rigid_pairs(ContactWork& before, ContactWork& work) {
     work.rows[kind].all = std::move(rows);
     work.rows[kind].candidates = std::move(before.rows[kind].candidates);
   }
-  work.edges.all = std::move(before.edges.all); // by their numbers, which rows have
+  work.edges.begin = std::move(before.edges.begin); // of the numbers that rows have
   work.rigid_pairs = std::move(before.rigid_pairs);
 }
 

@@ -7,7 +7,7 @@
 namespace cdem {
 
 // Writes RigidPairs::pairwise, planes, radius and pose.
-void find_pairwise(const Model&, const State&, const Movers&, RigidPairs&);
+void find_pairwise(const Model&, const State&, const ContactFragments&, RigidPairs&);
 // Writes RigidPairs::pose.
 void set_poses(const Model&, const State&, RigidPairs&);
 
@@ -41,7 +41,7 @@ struct PairsSearched {
   std::vector<int> now;         // per pair before: its number now, if it keeps its rows; else -1
   bool kept = false;            // one keeps its rows
 };
-// near: blocks near each other; null: those of before, as blocks are not searched. pace: m in a step, per mover.
+// near: blocks near each other; null: those of before, as blocks are not searched. pace: m in a step, per block.
 PairsSearched pairs_to_search(const Model&, const State&, const ContactWork&, const SearchMargin&,
                               const std::vector<double>& pace, const Pairs* near);
 

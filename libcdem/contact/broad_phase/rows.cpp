@@ -70,54 +70,28 @@ private:
 
   int triangle(bool edge, int i) const { return edge ? work_.edges.all[i].triangles[0] : i; }
   int source_triangle(int i) const { return triangle(kind_ == Contact::edge, i); }
-  int block(std::uint32_t target) const {
-    return surface_.triangles[source_triangle(static_cast<int>(target))].block;
-  }
-  int mover(int i) const { return work_.movers.of_triangle[source_triangle(i)]; }
+  int block(int i) const { return surface_.triangles[source_triangle(i)].block; }
   Group group(std::uint32_t target) const {
-    const int fragment = work_.movers.fragment_of_triangle[source_triangle(static_cast<int>(target))];
-    return {kind_ == Contact::spring ? 0 : block(target), fragment};
+    const int fragment = work_.fragments.of_triangle[source_triangle(static_cast<int>(target))];
+    return {kind_ == Contact::spring ? 0 : block(static_cast<int>(target)), fragment};
   }
-  bool renumbered() const { return kind_ == Contact::edge && !renewed_.edge_now.empty(); }
-  // The last that stays, where this one does not: rows stand by their sources.
-  int source_now(const ContactRow& row) const {
-    return renumbered() ? renewed_.edge_now[row.source] : row.source;
+  // Of edges of a block: by how much their numbers are larger now.
+  int shift(int block) const {
+    return kind_ == Contact::edge && !renewed_.edge_shift.empty() ? renewed_.edge_shift[block] : 0;
   }
+  int source_now(const ContactRow& row) const { return row.source + shift(row.source_block); }
 
-  // Fills kept_ with what stays of its targets.
+  // Fills kept_ with its targets, if it does.
   bool stays(const ContactRow& row, const std::vector<ContactCandidate>& candidates) {
     kept_.clear();
-    const bool of_pair = row.pair >= 0;
-    if (of_pair ? renewed_.pair_now[row.pair] < 0 : renewed_.all)
+    if (row.pair >= 0 ? renewed_.pair_now[row.pair] < 0
+                      : renewed_.all || renewed_.blocks[row.source_block] || renewed_.blocks[row.block])
       return false;
-    if (kind_ == Contact::spring) { // all its targets are of one fragment
-      const ContactCandidate* const first = candidates.data() + row.begin;
-      const auto target = static_cast<int>(first->target);
-      if (of_pair || !is_renewed(row.source, target))
-        kept_.assign(first, first + row.count);
-      return !kept_.empty();
-    }
-    const auto is_renewed = [&](int edge) {
-      return !of_pair && (renewed_.movers[mover(edge)] || renewed_.edges[edge]);
-    };
-    if (is_renewed(source_now(row)))
-      return false;
-    for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
-      ContactCandidate candidate = candidates[i];
-      if (renumbered()) {
-        const int now = renewed_.edge_now[candidate.target];
-        if (now < 0)
-          continue;
-        candidate.target = static_cast<std::uint32_t>(now) & last_contact_triangle;
-      }
-      if (!is_renewed(static_cast<int>(candidate.target)))
-        kept_.push_back(candidate);
-    }
-    return !kept_.empty();
-  }
-  bool is_renewed(int source, int target) const { // triangles
-    return renewed_.movers[mover(source)] || renewed_.movers[mover(target)] ||
-           work_.movers.changed[source] == Change::surface || renewed_.surfaced[mover(target)];
+    kept_.assign(candidates.begin() + row.begin, candidates.begin() + row.begin + row.count);
+    for (ContactCandidate& candidate : kept_)
+      candidate.target = static_cast<std::uint32_t>(static_cast<int>(candidate.target) + shift(row.block)) &
+                         last_contact_triangle;
+    return true;
   }
 
   void keep(ContactRow row, int source) {
@@ -134,23 +108,22 @@ private:
       ++end;
     ContactRow row;
     row.source = source;
-    row.block = block(found_[first].target);
-    const int own = mover(source), other = mover(static_cast<int>(found_[first].target));
-    row.pair = number_of(work_.rigid_pairs.all, own, other);
+    row.source_block = block(source);
+    row.block = block(static_cast<int>(found_[first].target));
+    row.pair = number_of(work_.rigid_pairs.all, row.source_block, row.block);
     if (kind_ == Contact::edge)
-      row.reach =
-          static_cast<float>(margins_.known(surface_.triangles[source_triangle(source)].block, row.block) +
-                             (row.pair >= 0 ? work_.rigid_pairs.all[row.pair].skin
-                                            : margins_.allowed()[own] + margins_.allowed()[other]));
+      row.reach = static_cast<float>(
+          margins_.known(row.source_block, row.block) +
+          (row.pair >= 0 ? work_.rigid_pairs.all[row.pair].skin
+                         : work_.travel.skin[row.source_block] + work_.travel.skin[row.block]));
     place(row, &found_[first], end - first);
     return end;
   }
 
   void place(ContactRow row, const ContactCandidate* targets, std::uint32_t count) {
-    row.source_mover = mover(row.source);
-    row.mover = mover(static_cast<int>(targets->target));
-    row.several_movers = std::any_of(targets, targets + count, [&](const ContactCandidate& target) {
-      return mover(static_cast<int>(target.target)) != row.mover;
+    row.fragment = work_.fragments.number_of_triangle[source_triangle(static_cast<int>(targets->target))];
+    row.several_blocks = std::any_of(targets, targets + count, [&](const ContactCandidate& target) {
+      return block(static_cast<int>(target.target)) != row.block;
     });
     row.begin = static_cast<std::uint32_t>(candidates_.size());
     row.count = count;
@@ -198,17 +171,17 @@ void make_rows(const Model& model, ContactWork& work, const SearchMargin& margin
   maker.take(rows, work.rows[kind].candidates);
   RowsAsleep& asleep = work.rows[kind].asleep;
   asleep.recheck_distance.resize(rows.size());
-  asleep.source_mover.resize(rows.size());
-  asleep.mover.resize(rows.size());
+  asleep.source_block.resize(rows.size());
+  asleep.block.resize(rows.size());
   asleep.hindered.assign((rows.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk, 0);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     asleep.recheck_distance[r] = rows[r].pair >= 0        ? std::numeric_limits<float>::infinity()
-                                 : rows[r].several_movers ? 0
+                                 : rows[r].several_blocks ? 0
                                                           : rows[r].recheck_distance;
     asleep.hindered[r / contact_rows_per_chunk] |= static_cast<std::uint64_t>(rows[r].hindered)
                                                    << (r % contact_rows_per_chunk);
-    asleep.source_mover[r] = rows[r].source_mover;
-    asleep.mover[r] = rows[r].mover;
+    asleep.source_block[r] = rows[r].source_block;
+    asleep.block[r] = rows[r].block;
   }
   sort_by_pair(rows, work.rigid_pairs.all.size(), asleep.of_pairs);
 }

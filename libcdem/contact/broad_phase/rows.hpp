@@ -1,4 +1,4 @@
-// From pairs that are near each other to rows: all targets near one source, of one fragment or mover.
+// From pairs that are near each other to rows: all targets near one source, of one fragment.
 #pragma once
 
 #include "libcdem/contact/broad_phase/candidates.hpp"

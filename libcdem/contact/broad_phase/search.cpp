@@ -2,8 +2,9 @@
 
 #include "libcdem/bond/release.hpp"
 
+#include "libcdem/contact/broad_phase/block_travel.hpp"
 #include "libcdem/contact/broad_phase/candidates.hpp"
-#include "libcdem/contact/broad_phase/movers.hpp"
+#include "libcdem/contact/broad_phase/contact_fragments.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/rows.hpp"
 #include "libcdem/contact/broad_phase/search_shares.hpp"
@@ -59,14 +60,12 @@ double require_apart(const Model& model, const ActiveSurface& active, const Pair
 
 // Without those of convex blocks that an interface holds together, and without those of one unbroken fragment that have no
 // broken bond between them and what is around them.
-Pairs free_pairs(const Model& model, const State& state, const Movers& movers, Pairs pairs) {
+Pairs free_pairs(const Model& model, const State& state, const ContactFragments& fragments, Pairs pairs) {
   if (model.frames.empty())
     return pairs;
   const Pairs held = held_pairs(model, state);
   const std::vector<char> loose = blocks_with_broken_bonds(model, state);
-  const auto fragment = [&](int block) {
-    return movers.fragment_of_triangle[model.surface.block_begin[block]];
-  };
+  const auto fragment = [&](int block) { return fragments.of_triangle[model.surface.block_begin[block]]; };
   const auto convex = [&](int block) { return model.blocks[block].convex(); };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
                              [&](const auto& pair) {
@@ -122,9 +121,9 @@ void start_contact(const Model& model, ContactWork& work) {
     height *= shallow_ratio;
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     work.sizes.bonds_give.push_back(bonds_give(model, static_cast<int>(b)));
-  for (std::vector<double>* of_movers :
-       {&work.motion.travelled, &work.motion.last_displacement, &work.motion.skin, &work.rigid_pairs.path})
-    of_movers->assign(model.blocks.size(), 0.0);
+  for (std::vector<double>* of_blocks :
+       {&work.travel.travelled, &work.travel.last_displacement, &work.travel.skin, &work.rigid_pairs.path})
+    of_blocks->assign(model.blocks.size(), 0.0);
   for (const auto& [bodies, law] : s.joint)
     work.knows_motions = work.knows_motions || model.joints[law].restitution < 1;
   work.damps = work.knows_motions || std::any_of(model.blocks.begin(), model.blocks.end(),
@@ -141,39 +140,29 @@ void start_contact(const Model& model, ContactWork& work) {
 
 namespace {
 
-// Leaves out, where only fragments of one of two blocks are searched, the other fragments of that block. The edge of a
-// wedge that two fragments make stands at one of them and is searched with either.
-void leave_out_known(const SurfaceEdges& surface_edges, const ActiveSurface& active, const Renewed& renewed,
-                     SharedPart& part) {
-  if (renewed.all || (renewed.blocks[part.block_a] && renewed.blocks[part.block_b]))
-    return;
-  const auto known = [&](int place) {
-    const int t = active.triangles[place];
-    const auto edges = renewed.edges.begin();
-    return !active.source_searched[place] && !active.target_searched[place] &&
-           std::find(edges + surface_edges.begin[t], edges + surface_edges.begin[t + 1], 1) ==
-               edges + surface_edges.begin[t + 1];
-  };
-  std::vector<int>& of_searched = renewed.blocks[part.block_a] ? part.of_a : part.of_b;
-  of_searched.erase(std::remove_if(of_searched.begin(), of_searched.end(), known), of_searched.end());
+// Blocks whose fragments are not what they were, or all.
+Renewed blocks_to_search(const Model& model, const ContactFragments& fragments, bool all) {
+  Renewed renewed;
+  renewed.all = all;
+  renewed.blocks.assign(model.blocks.size(), static_cast<char>(all));
+  for (std::size_t t = 0; t < fragments.changed.size(); ++t)
+    if (fragments.changed[t])
+      renewed.blocks[model.surface.triangles[t].block] = 1;
+  return renewed;
 }
 
-// The same for pairs of two blocks of which only some fragments are searched.
-void leave_out_known(const ActiveSurface& active, const Renewed& renewed, Pairs& pairs,
-                     std::vector<Near>& edges) {
-  if (renewed.all)
-    return;
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                             [&](const auto& pair) {
-                               return !active.source_searched[pair.first] &&
-                                      !active.target_searched[pair.second];
-                             }),
-              pairs.end());
-  edges.erase(std::remove_if(edges.begin(), edges.end(),
-                             [&](const Near& near) {
-                               return !renewed.edges[near.source] && !renewed.edges[near.target];
-                             }),
-              edges.end());
+// Finds the fragments, and what follows from them. Returns by how much the numbers of each block's edges grow.
+std::vector<int> tell_fragments_apart(const Model& model, const State& state, ContactWork& work) {
+  const ContactSurface& s = model.surface;
+  const std::vector<int> before = std::move(work.edges.begin);
+  find_contact_fragments(model, state, work.fragments);
+  find_tets_beyond(model, work.fragments, work.tets_beyond);
+  work.edges = find_semi_edges(model, state, work.fragments, std::move(work.edges.of_broken));
+  find_pairwise(model, state, work.fragments, work.rigid_pairs);
+  std::vector<int> shift;
+  for (std::size_t b = 0; !before.empty() && b + 1 < s.block_begin.size(); ++b)
+    shift.push_back(work.edges.begin[s.block_begin[b]] - before[s.block_begin[b]]);
+  return shift;
 }
 
 // What was found of rows when they were last looked at counts no more; of rigid pairs only where contacts may begin at any
@@ -185,7 +174,7 @@ void let_all_wake(ContactWork& work, bool pairs_too) {
       ContactRow& row = work.rows[kind].all[r];
       if (row.pair >= 0 && !pairs_too)
         continue;
-      row.recheck_distance = row.allowed = 0;
+      row.recheck_distance = 0;
       if (kind == Contact::spring)
         row.reach = 0;
       if (row.pair < 0)
@@ -208,28 +197,23 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   Searches& search = work.search;
   const ContactSurface& s = model.surface;
   const bool fragments_due = search.fragments_due, fragments_only = !model.frames.empty();
-  std::vector<ContactEdge> edges_before;
-  if (fragments_due) {
-    edges_before = std::move(work.edges.all);
-    find_fragments(model, state, work.movers, work.motion);
-    find_tets_beyond(model, work.movers, work.tets_beyond);
-    work.edges = find_semi_edges(model, state, work.movers, std::move(work.edges.of_broken));
-    set_displacements(model, state, work, threads);
-    find_pairwise(model, state, work.movers, work.rigid_pairs);
-  }
-  Renewed renewed = movers_to_search(model, work,
+  std::vector<int> edge_shift;
+  if (fragments_due)
+    edge_shift = tell_fragments_apart(model, state, work);
+  Renewed renewed = blocks_to_search(model, work.fragments,
                                      search.blocks_due || search.all_due || search.count == 0 ||
                                          (fragments_due && fragments_only));
-  edges_to_search(model, work.movers, work.edges, edges_before, fragments_due, renewed);
-  const std::vector<double> pace = choose_skins(model, state, work, renewed);
-  const SearchMargin margins(model, state, work, renewed);
-  const ActiveSurface active = active_surface(model, state, work.movers, margins, renewed, threads);
+  renewed.edge_shift = std::move(edge_shift);
+  const std::vector<double> pace = choose_skins(model, state, work, renewed.all);
+  const SearchMargin margins(model, state, work);
+  const ActiveSurface active = active_surface(model, state, work.fragments, margins, threads);
   if (!active.finite())
     return false;
   std::vector<char> has_surface;
   for (std::size_t b = 0; b + 1 < active.block_begin.size(); ++b)
     has_surface.push_back(static_cast<char>(active.block_begin[b] < active.block_begin[b + 1]));
-  Pairs blocks = free_pairs(model, state, work.movers, geom::touching_pairs(active.block_boxes, has_surface));
+  Pairs blocks =
+      free_pairs(model, state, work.fragments, geom::touching_pairs(active.block_boxes, has_surface));
   const auto rigid = std::stable_partition(blocks.begin(), blocks.end(), [&](const auto& pair) {
     return !pairwise(work.rigid_pairs, pair.first, pair.second) ||
            !contact_joint(model, pair.first, pair.second);
@@ -248,7 +232,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   // there meets its surface once.
   for (int b = 0; b + 1 < static_cast<int>(s.block_begin.size()); ++b)
     if (model.blocks[b].meshed && !model.blocks[b].star() && model.blocks[b].rigid < 0 && renewed.blocks[b] &&
-        !work.movers.broken[b] && contact_joint(model, b, b))
+        !work.fragments.broken[b] && contact_joint(model, b, b))
       alone.push_back(b);
   const auto n_pairs = static_cast<std::int64_t>(blocks.size()),
              n_alone = static_cast<std::int64_t>(alone.size());
@@ -271,7 +255,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     std::vector<Near>&springs = found.springs[place], &edges = found.edges[place];
     if (i >= n_pairs + n_alone) {
       const RigidPair& pair = pairs.pairs[pairs.searched[i - n_pairs - n_alone]];
-      const Skins skins(margins.allowed(), pair.skin);
+      const Skins skins(work.travel.skin, pair.skin);
       const auto [a, b] = std::minmax(pair.a, pair.b);
       const SharedPart part = shared_part(active, a, b, skins);
       edges = near_edges(model, state, work, margins, active, part, skins);
@@ -279,7 +263,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       springs = near_springs(model, state, work, margins, active, near, skins);
       return;
     }
-    const Skins skins(margins.allowed());
+    const Skins skins(work.travel.skin);
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, margins, active, alone[i - n_pairs]);
       edges = near_edges_within(model, state, work, margins, active, near.meeting);
@@ -289,8 +273,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     const auto [a, b] = blocks[i];
     if (!model.blocks[a].meshed || !model.blocks[b].meshed)
       return;
-    SharedPart part = shared_part(active, a, b, skins);
-    leave_out_known(work.edges, active, renewed, part);
+    const SharedPart part = shared_part(active, a, b, skins);
     if (!contact_joint(model, a, b)) {
       try {
         may_go[place] = require_apart(model, active, meeting(margins, active, part));
@@ -301,7 +284,6 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     }
     edges = near_edges(model, state, work, margins, active, part, skins);
     Pairs near = looked_at(model, work, active, part, skins);
-    leave_out_known(active, renewed, near, edges);
     springs = near_springs(model, state, work, margins, active, near, skins);
   });
   for (std::size_t i = 0; i < n_own; ++i) {
@@ -317,11 +299,9 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   make_rows(model, work, margins, found.edges, Contact::edge, renewed);
   search.undefined_pair_margin =
       renewed.all ? found.may_go : std::min(search.undefined_pair_margin, found.may_go);
-  for (int m = 0; m < work.movers.count(); ++m)
-    if (renewed.movers[m])
-      work.motion.travelled[m] = 0;
-  begin_drifts(model, state, work.movers, renewed, work.motion);
-  set_drifts(model, state, work, threads);
+  for (std::size_t b = 0; b < renewed.blocks.size(); ++b)
+    if (renewed.blocks[b])
+      work.travel.travelled[b] = 0;
   ++search.count;
   if (search.anew) // whatever is known, all is looked at
     let_all_wake(work, any_bonded_faces(model, state));

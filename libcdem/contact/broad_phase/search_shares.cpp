@@ -33,15 +33,15 @@ void cut_sources(const Model& model, ContactWork& work, const FoundNear& found) 
   const auto triangles = static_cast<std::int64_t>(model.surface.triangles.size());
   std::vector<std::int64_t> counts(
       static_cast<std::size_t>((triangles + triangles_per_count - 1) / triangles_per_count), 0);
-  int source = -1, mover = -1;
+  int source = -1, fragment = -1;
   each_near(found, [&](Contact::Kind kind, const Near& near) {
     const int from = triangle_of(work.edges, kind, near.source),
               to = triangle_of(work.edges, kind, static_cast<int>(near.target)),
-              of = work.movers.of_triangle[to];
-    const bool of_row = near.source == source && of == mover;
+              of = work.fragments.of_triangle[to];
+    const bool of_row = near.source == source && of == fragment;
     counts[triangle_of_row(model, from, to) / triangles_per_count] += of_row ? 1 : 1 + row_load;
     source = near.source;
-    mover = of;
+    fragment = of;
   });
   ranks().sum(counts.data(), counts.size());
   work.triangle_begin =

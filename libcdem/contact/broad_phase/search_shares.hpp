@@ -1,6 +1,6 @@
 // A search with several ranks. The pairs of blocks are assigned to the ranks by counted loads. Each rank sends the pairs that
 // it finds near a source to the rank that keeps the row (data/row_owner.hpp). Runs of triangles are cut by the rows and
-// candidates that a search of all movers has found. A single rank searches and keeps everything.
+// candidates that a search of all blocks has found. A single rank searches and keeps everything.
 #pragma once
 
 #include "libcdem/contact/broad_phase/candidates.hpp"
@@ -23,7 +23,7 @@ struct FoundNear {
 };
 
 // Afterwards `springs` and `edges` are those of rows that this rank keeps, and the rest is known to all. all: of all
-// movers, for which it writes ContactWork::triangle_begin.
+// blocks, for which it writes ContactWork::triangle_begin.
 void share_found(const Model&, ContactWork&, bool all, FoundNear&);
 
 } // namespace cdem

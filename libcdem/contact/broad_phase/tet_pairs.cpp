@@ -33,7 +33,7 @@ Joints joints_of(const Model& model, const State& state, const ContactWork& work
                  const std::vector<SurfaceTet>& tets) {
   geom::DisjointSets sets(model.node_position.size());
   each_face(model.mesh, [&](const MeshChunk& chunk, std::int64_t batch, int lane) {
-    if (!work.movers.broken[chunk.block] || (state.faces[batch].told[lane] & ToldOfFace::left) != 0)
+    if (!work.fragments.broken[chunk.block] || (state.faces[batch].told[lane] & ToldOfFace::left) != 0)
       return;
     const FaceNodes nodes = face_nodes(model.mesh, chunk, batch, lane);
     for (int k = 0; k < 3; ++k)
@@ -77,7 +77,7 @@ std::vector<char> with_rings(const Model& model, const Block& block, std::vector
 
 void add_tets(const Model& model, const ContactWork& work, int block, TetContacts& to) {
   const Block& b = model.blocks[block];
-  const std::vector<char> at_surface = tets_at_surface(model, work.movers, block),
+  const std::vector<char> at_surface = tets_at_surface(model, work.fragments, block),
                           all = with_rings(model, b, at_surface);
   for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
     if (all[tet - b.tet_begin]) {
@@ -244,7 +244,7 @@ void list_tets(const Model& model, const State& state, ContactWork& work) {
   to.tets_begin.push_back(0);
   to.skin = std::numeric_limits<double>::infinity();
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
-    if (touches_itself(model, work.movers, block)) {
+    if (touches_itself(model, work.fragments, block)) {
       add_tets(model, work, block, to);
       to.skin = std::min(to.skin, skin_ratio * model.surface.usual_height[block]);
     }
@@ -291,10 +291,10 @@ bool told_anew(const Model& model, const State& state, ContactWork& work) {
   std::vector<char> at_surface(of.tets.size(), 0);
   std::size_t blocks = 0;
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block) {
-    if (!touches_itself(model, work.movers, block))
+    if (!touches_itself(model, work.fragments, block))
       continue;
     ++blocks;
-    const std::vector<char> of_block = tets_at_surface(model, work.movers, block);
+    const std::vector<char> of_block = tets_at_surface(model, work.fragments, block);
     for (std::size_t i = 0; i < of_block.size(); ++i) {
       const int t = of.number[model.blocks[block].tet_begin + i];
       if (t < 0 && of_block[i])
@@ -410,9 +410,10 @@ int TetContacts::pair_of(int tet, int other) const {
              : -1;
 }
 
-bool touches_itself(const Model& model, const Movers& movers, int block) {
+bool touches_itself(const Model& model, const ContactFragments& fragments, int block) {
   const Block& b = model.blocks[block];
-  return movers.broken[block] && b.meshed && !b.star() && b.rigid < 0 && contact_joint(model, block, block);
+  return fragments.broken[block] && b.meshed && !b.star() && b.rigid < 0 &&
+         contact_joint(model, block, block);
 }
 
 void find_tet_pairs(const Model& model, const State& state, ContactWork& work, bool told) {
@@ -420,7 +421,7 @@ void find_tet_pairs(const Model& model, const State& state, ContactWork& work, b
   if (told) {
     bool any = false;
     for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block)
-      any = any || touches_itself(model, work.movers, block);
+      any = any || touches_itself(model, work.fragments, block);
     if (!any)
       work.tet_contacts = nullptr;
     else if (work.tet_contacts)

@@ -7,7 +7,7 @@
 namespace cdem {
 
 // Whether contact within the block goes by pairs of its tetrahedra: faces of it have broken.
-bool touches_itself(const Model&, const Movers&, int block);
+bool touches_itself(const Model&, const ContactFragments&, int block);
 
 // In this step overlaps without a force that have grown smaller count as they are now, and pairs that have parted are forgotten. Not
 // in steps that are looked over.

@@ -20,12 +20,12 @@ int face_of(const geom::Tet& tet, const geom::Triangle& triangle) {
 
 } // namespace
 
-std::vector<char> tets_at_surface(const Model& model, const Movers& movers, int block) {
+std::vector<char> tets_at_surface(const Model& model, const ContactFragments& fragments, int block) {
   const ContactSurface& s = model.surface;
   const Block& b = model.blocks[block];
   std::vector<char> on_surface(s.original.size(), 0); // of the mesh before it was split
   for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
-    if (movers.active[t])
+    if (fragments.active[t])
       for (const int node : s.triangles[t].nodes)
         on_surface[s.original[node]] = 1;
   std::vector<char> at_surface;
@@ -37,17 +37,17 @@ std::vector<char> tets_at_surface(const Model& model, const Movers& movers, int 
   return at_surface;
 }
 
-void find_tets_beyond(const Model& model, const Movers& movers, TetsBeyond& tets_beyond) {
+void find_tets_beyond(const Model& model, const ContactFragments& fragments, TetsBeyond& tets_beyond) {
   const ContactSurface& s = model.surface;
   const int first = model.mesh.first_tet;
   for (int block = 0; block < static_cast<int>(model.blocks.size()); ++block) {
-    if (!movers.broken[block])
+    if (!fragments.broken[block])
       continue;
     if (tets_beyond.neighbours.empty())
       tets_beyond.neighbours = mesh_neighbours(model);
     tets_beyond.of_tet.resize(tets_beyond.neighbours.size() / 4);
     const Block& b = model.blocks[block];
-    const std::vector<char> at_surface = tets_at_surface(model, movers, block);
+    const std::vector<char> at_surface = tets_at_surface(model, fragments, block);
     for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
       for (int face = 0; face < 4; ++face) {
         const int beyond = tets_beyond.neighbours[4 * (tet - first) + face];
@@ -57,7 +57,7 @@ void find_tets_beyond(const Model& model, const Movers& movers, TetsBeyond& tets
                                                     : TetsBeyond::deep;
       }
     for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
-      if (const ContactTriangle& triangle = s.triangles[t]; movers.active[t])
+      if (const ContactTriangle& triangle = s.triangles[t]; fragments.active[t])
         tets_beyond.of_tet[triangle.tet - first][face_of(model.tets[triangle.tet], triangle.nodes)] =
             TetsBeyond::none;
   }

@@ -11,10 +11,10 @@
 
 namespace cdem {
 
-void find_tets_beyond(const Model&, const Movers&, TetsBeyond&);
+void find_tets_beyond(const Model&, const ContactFragments&, TetsBeyond&);
 
 // The tets of the block that have a node on its surface, as it is now, by their places in Block; others are deep.
-std::vector<char> tets_at_surface(const Model&, const Movers&, int block);
+std::vector<char> tets_at_surface(const Model&, const ContactFragments&, int block);
 
 // x: m, behind the triangle, of which `place` is the place nearest to it.
 bool stands_within(const Model&, const State&, const TetsBeyond&, int triangle, const geom::Vec3& place,

@@ -1,10 +1,11 @@
-// Data of contact that live for one stage, beside Model and State. A search finds the pairs that can touch before a mover
+// Data of contact that live for one stage, beside Model and State. A search finds the pairs that can touch before a block
 // has moved further than its skin. The search never changes a force.
 #pragma once
 
+#include "libcdem/contact/data/block_travel.hpp"
 #include "libcdem/contact/data/contact_force.hpp"
+#include "libcdem/contact/data/contact_fragments.hpp"
 #include "libcdem/contact/data/contact_rows.hpp"
-#include "libcdem/contact/data/movers.hpp"
 #include "libcdem/contact/data/rigid_pair.hpp"
 #include "libcdem/contact/data/surface_edges.hpp"
 #include "libcdem/parallel/chunks.hpp"
@@ -27,7 +28,7 @@ inline constexpr double depth_ratio = 0.25;
 
 // A stage's wishes of its contacts.
 struct ContactOptions {
-  bool looks_at_all = false; // in every step, after a search of all movers: for tests of what is skipped
+  bool looks_at_all = false; // in every step, after a search of all blocks: for tests of what is skipped
   // Tangent of the largest friction angle of any contact, for a stage that wants less than joints give.
   double most_friction = std::numeric_limits<double>::infinity();
 };
@@ -45,9 +46,9 @@ struct SurfaceSizes {
 struct Searches {
   bool fragments_due = true;  // faces have broken, or fragments are not known: a search is due with them
   std::vector<char> told_due; // per block: that search is told of its faces first; with fragments_due
-  bool blocks_due = false;    // a search is due of all movers, not only of fragments that left their skins
+  bool blocks_due = false;    // a search is due of all blocks
   bool pairs_due = false;     // a search is due of rigid pairs that left their skins
-  bool all_due = false;       // a search of all movers is due in which no rigid pair keeps its rows
+  bool all_due = false;       // a search of all blocks is due in which no rigid pair keeps its rows
   bool anew = true;           // a search goes on as if nothing of fragments had been known
   // State::contacts holds all there are, but for fragments. Not so where a stage begins: what stands in what then is
   // anybody's doing.
@@ -82,10 +83,10 @@ struct PairForces {
 struct ContactWork {
   ContactOptions options;
   SurfaceSizes sizes;
-  Movers movers;
-  TetsBeyond tets_beyond; // written by find_tets_beyond for the movers that are known
+  ContactFragments fragments;
+  TetsBeyond tets_beyond; // written by find_tets_beyond for the fragments that are known
   SurfaceEdges edges;
-  MoverMotion motion;
+  BlockTravel travel;
   RigidPairs rigid_pairs;
   Searches search;
   std::array<ContactRows, 2> rows;           // of springs, of edges
@@ -94,7 +95,7 @@ struct ContactWork {
   bool due = true; // something moved since the contacts were looked at
   double step = 0; // s, since then
   // In this step contacts begin at any depth, since it is not known which fragments are new: all contacts, or those of
-  // blocks of which faces have been freed or have broken. Otherwise only contacts of movers that have changed do.
+  // blocks of which faces have been freed or have broken. Otherwise only contacts of fragments that have changed do.
   bool any_depth_begins = false, any_depth_of_broken = false;
   EdgesTouched edges_touched;
   bool knows_motions = false; // of blocks as wholes: some contact law has a restitution below 1

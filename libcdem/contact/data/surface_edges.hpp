@@ -37,9 +37,9 @@ struct SurfaceEdges {
   std::vector<EdgeBeyond> beyond; // by edge and end, each list closed by -1
 };
 
-// Per edge, and per mover: it had a contact of edges before the step. Written by mark_touched_edges.
+// Per edge, and per block: it had a contact of edges before the step. Written by mark_touched_edges.
 struct EdgesTouched {
-  std::vector<char> edges, movers;
+  std::vector<char> edges, blocks;
 };
 
 } // namespace cdem

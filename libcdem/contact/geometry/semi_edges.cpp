@@ -158,7 +158,7 @@ struct End {
   int fragment = 0, edge = 0, end = 0;
 };
 
-void find_ends(const Model& model, const Movers& movers, SurfaceEdges& edges) {
+void find_ends(const Model& model, const ContactFragments& fragments, SurfaceEdges& edges) {
   const std::vector<int>& original = model.surface.original;
   std::vector<int> begin(original.size() + 2, 0); // by original node; shifted by one until they are filled
   for (const ContactEdge& edge : edges.all)
@@ -169,7 +169,7 @@ void find_ends(const Model& model, const Movers& movers, SurfaceEdges& edges) {
   for (int e = 0; e < static_cast<int>(edges.all.size()); ++e)
     for (int end = 0; end < 2; ++end)
       ends[begin[original[edges.all[e].nodes[end]] + 1]++] = {
-          movers.fragment_of_triangle[edges.all[e].triangles[0]], e, end};
+          fragments.of_triangle[edges.all[e].triangles[0]], e, end};
   edges.ends.resize(edges.all.size());
   edges.at_end.reserve(3 * edges.all.size());
   for (std::size_t node = 0; node < original.size(); ++node) {
@@ -224,7 +224,7 @@ void find_triangles_beyond(const ContactSurface& s, SurfaceEdges& edges) {
 
 } // namespace
 
-SurfaceEdges find_semi_edges(const Model& model, const State& state, const Movers& movers,
+SurfaceEdges find_semi_edges(const Model& model, const State& state, const ContactFragments& fragments,
                              std::vector<EdgesOfBroken> known) {
   const ContactSurface& s = model.surface;
   SurfaceEdges edges;
@@ -234,7 +234,7 @@ SurfaceEdges find_semi_edges(const Model& model, const State& state, const Mover
     const std::size_t first = next;
     while (next < s.edges.size() && s.edges[next].triangles[0] < s.block_begin[b + 1])
       ++next;
-    if (!movers.broken[b]) {
+    if (!fragments.broken[b]) {
       edges.all.insert(edges.all.end(), s.edges.begin() + static_cast<std::ptrdiff_t>(first),
                        s.edges.begin() + static_cast<std::ptrdiff_t>(next));
       continue;
@@ -252,7 +252,7 @@ SurfaceEdges find_semi_edges(const Model& model, const State& state, const Mover
   for (std::size_t t = 0; t < s.triangles.size(); ++t)
     edges.begin[t + 1] += edges.begin[t];
   find_triangles_beyond(s, edges);
-  find_ends(model, movers, edges);
+  find_ends(model, fragments, edges);
   find_lines(model, edges);
   return edges;
 }

@@ -6,7 +6,7 @@
 // angles. A wedge is a semi-edge if it is narrower than a flat angle.
 #pragma once
 
-#include "libcdem/contact/data/movers.hpp"
+#include "libcdem/contact/data/contact_fragments.hpp"
 #include "libcdem/contact/data/surface_edges.hpp"
 #include "libcdem/model/model.hpp"
 #include "libcdem/state/state.hpp"
@@ -14,7 +14,7 @@
 namespace cdem {
 
 // known: SurfaceEdges::of_broken of the search before, of the same model; empty: none is known.
-SurfaceEdges find_semi_edges(const Model&, const State&, const Movers&,
+SurfaceEdges find_semi_edges(const Model&, const State&, const ContactFragments&,
                              std::vector<EdgesOfBroken> known = {});
 
 } // namespace cdem

@@ -1,5 +1,6 @@
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
 
+#include "libcdem/contact/broad_phase/contact_fragments.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
@@ -28,7 +29,7 @@ void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   go_to(3 * row.source);
   const std::size_t contacts = out_.contacts.size(), forces = out_.forces.size();
   const ContactSums sums = out_.sums;
-  const bool all = row.reach == 0 || row.several_movers || work_.options.looks_at_all;
+  const bool all = row.reach == 0 || row.several_blocks || work_.options.looks_at_all;
   const auto shallow = static_cast<float>(
       std::min(work_.sizes.shallow[surface_.triangles[row.source].block], work_.sizes.shallow[row.block]));
   row.reach = std::max(row.reach, shallow);
@@ -56,7 +57,7 @@ const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
 }
 
 double Evaluation::moved(const ContactRow& row) const {
-  return row.pair >= 0 ? work_.rigid_pairs.all[row.pair].moved : travelled(work_, row);
+  return row.pair >= 0 ? work_.rigid_pairs.all[row.pair].moved : travelled(model_, work_, row);
 }
 
 double Evaluation::from(const ContactRow& row) const {
@@ -65,9 +66,10 @@ double Evaluation::from(const ContactRow& row) const {
 
 double Evaluation::moved_in_step(const ContactRow& row) const {
   double of_targets = 0;
-  each_mover(work_, row,
-             [&](int mover) { of_targets = std::max(of_targets, work_.motion.last_displacement[mover]); });
-  return work_.motion.last_displacement[row.source_mover] + of_targets;
+  each_target_block(model_, work_, row, [&](int block) {
+    of_targets = std::max(of_targets, work_.travel.last_displacement[block]);
+  });
+  return work_.travel.last_displacement[row.source_block] + of_targets;
 }
 
 void Evaluation::go_to(int source) {
@@ -142,11 +144,15 @@ Nearest Evaluation::nearest_on(int target, const geom::Vec3& spring, double give
 // A plane that has all of them on its outer side is enough. The one that parted them best is tried first.
 bool Evaluation::stand_outside(ContactRow& row, const Springs& spring) {
   const bool of_pair = row.pair >= 0;
-  const std::array<int, 4>& of_tet = work_.movers.triangles_of_tet[row.mover];
-  const int* const planes = of_pair ? work_.rigid_pairs.planes[row.mover].data() : of_tet.data();
-  const int count = of_pair         ? static_cast<int>(work_.rigid_pairs.planes[row.mover].size())
-                    : of_tet[0] < 0 ? 0
-                                    : 4;
+  const int* planes = nullptr;
+  int count = 0;
+  if (of_pair) {
+    planes = work_.rigid_pairs.planes[row.block].data();
+    count = static_cast<int>(work_.rigid_pairs.planes[row.block].size());
+  } else if (row.fragment >= 0 && !of_several_tets(work_.fragments, row.fragment)) {
+    planes = work_.fragments.triangles_of_tet[row.fragment].data();
+    count = 4;
+  }
   if (count == 0 || work_.options.looks_at_all)
     return false;
   const auto outside = [&](int plane) { // m, of each
@@ -182,9 +188,9 @@ bool Evaluation::stand_outside(ContactRow& row, const Springs& spring) {
 void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, bool all, const Springs& spring,
                               std::array<Nearest, 3>& nearest) {
   const double moved = this->moved(row), from = this->from(row);
-  const double gives = gives_of(model_, work_, row.block, row.mover);
-  const bool of_tets = of_several_tets(model_, work_.movers, row.mover),
-             gives_way = held_by_bonds(model_, work_.movers, row.mover);
+  const double gives = gives_of(model_, work_, row.block, row.fragment);
+  const bool of_tets = of_several_tets(work_.fragments, row.fragment),
+             gives_way = held_by_bonds(work_.fragments, row.fragment);
   std::array<NearestOfTets, 3> of_surface;
   std::array<Distances, 3> distances;
   for (std::vector<Nearest>& each : awake_)
@@ -265,11 +271,11 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
 double Evaluation::begins_at(int source, int target, double shallow) const {
   const auto has_broken = [&](int triangle) {
     const int block = surface_.triangles[triangle].block;
-    return work_.sizes.freed[block] != 0 || work_.movers.broken[block] != 0;
+    return work_.sizes.freed[block] != 0 || work_.fragments.broken[block] != 0;
   };
-  const bool any_depth =
-      work_.any_depth_begins || (work_.any_depth_of_broken && (has_broken(source) || has_broken(target))) ||
-      work_.movers.changed[source] != Change::none || work_.movers.changed[target] != Change::none;
+  const bool any_depth = work_.any_depth_begins ||
+                         (work_.any_depth_of_broken && (has_broken(source) || has_broken(target))) ||
+                         work_.fragments.changed[source] != 0 || work_.fragments.changed[target] != 0;
   return any_depth ? std::numeric_limits<double>::infinity() : shallow;
 }
 
@@ -284,8 +290,8 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   float sleeps = std::numeric_limits<float>::infinity();
   bool looks = all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end());
   if (!looks) {
-    const double gives = gives_of(model_, work_, row.block, row.mover);
-    const bool of_tets = of_several_tets(model_, work_.movers, row.mover);
+    const double gives = gives_of(model_, work_, row.block, row.fragment);
+    const bool of_tets = of_several_tets(work_.fragments, row.fragment);
     row.recheck_distance = 0;
     for (int corner = 0; corner < 3; ++corner)
       if (row.known_target[corner] >= 0) {
@@ -313,7 +319,7 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       sleeps = 0;
       continue;
     }
-    if (!found.in_tet && held_by_bonds(model_, work_.movers, work_.movers.of_triangle[found.target]) &&
+    if (!found.in_tet && held_by_bonds(work_.fragments, work_.fragments.number_of_triangle[found.target]) &&
         !stands_within(model_, state_, work_.tets_beyond, found.target, found.place, spring[corner])) {
       sleeps = 0;
       continue;
@@ -327,7 +333,7 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
     };
     const double reach = row.reach + ways;
     const double covered = 2 * depth_limit(work_.sizes, source, surface_.triangles[found.target]);
-    const int fragment = work_.movers.fragment_of_triangle[found.target];
+    const int fragment = work_.fragments.of_triangle[found.target];
     // With some asleep, what is further in than a step can have brought it is not inside: nearer ones sleep. But a contact
     // goes on at any depth, as one that leaves a part of the fragment where another part overlaps it. All are looked at then.
     const bool too_deep = !all && found.distance2 > reach * reach;
@@ -354,9 +360,9 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
 // and would push along the face that happens to be nearest.
 bool Evaluation::edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
                                  int target) const {
-  const std::vector<int>& mover = work_.movers.of_triangle;
-  return work_.edges_touched.movers[mover[source]] && work_.edges_touched.movers[mover[target]] &&
-         lines_.carries_at(source, corner, spring, normal, surface_.triangles[target].block);
+  const int block = surface_.triangles[source].block, other = surface_.triangles[target].block;
+  return work_.edges_touched.blocks[block] && work_.edges_touched.blocks[other] &&
+         lines_.carries_at(source, corner, spring, normal, other);
 }
 
 // Blocks that lie side by side never end in exactly one plane. Where a face slides over such a step, the springs of its

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "libcdem/contact/broad_phase/active_surface.hpp"
-#include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/data/contact_work.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/contact/narrow_phase/edge_lines.hpp"
@@ -28,12 +27,11 @@ private:
     double tan_friction = 0;
   };
   const Law& law_between(int block_a, int block_b);
-  // m, both movers together, since the search; or what the pair has moved.
+  // m, both blocks together, since the search; or what the pair has moved.
   double moved(const ContactRow&) const;
   // m, what is found now and is d away waits until `moved` is from + d.
   double from(const ContactRow&) const;
   double moved_in_step(const ContactRow&) const; // m
-  bool moves_as_one(const ContactEdge&) const;
   // An edge through this corner of the source, into the target, carries there in a contact with the target's block.
   bool edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
                        int target) const;

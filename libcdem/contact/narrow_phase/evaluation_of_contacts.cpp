@@ -23,7 +23,7 @@ Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, c
     local += weights[i] * weights[i] / moving_mass(model_, state_)[nodes[i]] *
              std::max(1.0, model_.node_mass[nodes[i]] / corner);
   }
-  if (work_.motion.last_displacement[block] == 0)
+  if (work_.travel.last_displacement[block] == 0)
     return {velocity}; // held: it does not turn round
   const Block& b = model_.blocks[block];
   const double mass = b.mass.volume * density;

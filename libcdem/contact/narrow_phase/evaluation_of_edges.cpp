@@ -38,6 +38,11 @@ Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge
           std::max(0., 0.25 * (sine - parallel_edges) / (1 / la + 1 / lb))};
 }
 
+// m/s, of its faster end.
+double speed_of(const State& state, const ContactEdge& edge) {
+  return std::max(velocity_of(state, edge.nodes[0]).norm(), velocity_of(state, edge.nodes[1]).norm());
+}
+
 // m: until two edges have moved so far they do not touch: either normal lies outside a fan (the Gauss map),
 // or it tells that they are apart. Along a common normal of two lines any two places of them are as far from each other.
 double apart_until(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
@@ -94,16 +99,10 @@ bool may_begin_along(const Model& model, const ContactEdge& e, const ContactEdge
 
 } // namespace
 
-// The motion of its mover bounds that of both its faces. Not so of a wedge of several fragments that still hold together.
-bool Evaluation::moves_as_one(const ContactEdge& edge) const {
-  const std::vector<int>& of = work_.movers.of_triangle;
-  return of[edge.triangles[0]] == of[edge.triangles[1]];
-}
-
 void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   const ContactEdge& e = work_.edges.all[row.source];
   const ContactTriangle& from = surface_.triangles[e.triangles[0]];
-  const bool touched = work_.edges_touched.movers[row.source_mover] && work_.edges_touched.movers[row.mover];
+  const bool touched = work_.edges_touched.blocks[row.source_block] && work_.edges_touched.blocks[row.block];
   const double moved = this->moved(row), from_here = this->from(row);
   const bool skips = !work_.options.looks_at_all;
   if (skips && moved < row.recheck_distance && !(row.hindered && touched))
@@ -133,7 +132,8 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
                f_ends = lines_.at_last_end(target, nearest.at.t);
     bool may_begin = distance <= limit && !e_ends && !f_ends;
     if (may_begin && sine_between(model_, state_, e, f) < edges_in_line) {
-      may_begin = may_begin_along(model_, e, f, nearest, moved_in_step(row));
+      may_begin =
+          may_begin_along(model_, e, f, nearest, work_.step * (speed_of(state_, e) + speed_of(state_, f)));
     } else if (may_begin) {
       // Where the way between them leads out of one of the two bodies, an end that is nearer than the way is long may have a
       // face that parts them.
@@ -143,8 +143,7 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     }
     if (apart <= 0) {
       Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
-      if (moves_as_one(e) && moves_as_one(f))
-        hindrance.by_angle = std::max(hindrance.by_angle, apart_until(model_, state_, e, f, nearest.way));
+      hindrance.by_angle = std::max(hindrance.by_angle, apart_until(model_, state_, e, f, nearest.way));
       candidate.recheck_distance = rounded_down(
           from_here + std::min(hindrance.parallel, std::max(hindrance.by_angle, hindrance.last_end)));
       candidate.springs = hindrance.last_end > hindrance.by_angle ? 1 : 0;

@@ -14,7 +14,8 @@ namespace {
 // What a rank reads of surfaces: nodes of triangles and of the tets behind them.
 class NodesRead {
 public:
-  NodesRead(const Model& model, const Movers& movers) : model_(model), movers_(movers), s_(model.surface) {}
+  NodesRead(const Model& model, const ContactFragments& fragments)
+      : model_(model), fragments_(fragments), s_(model.surface) {}
 
   void add_block(int block) {
     for (int node = model_.blocks[block].node_begin; node < model_.blocks[block].node_end; ++node)
@@ -22,7 +23,7 @@ public:
   }
   void add_surface(int block) {
     for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t)
-      if (movers_.active[t])
+      if (fragments_.active[t])
         add_triangle(t);
   }
   std::vector<std::int32_t> take() { return std::move(nodes_); }
@@ -36,7 +37,7 @@ private:
   }
 
   const Model& model_;
-  const Movers& movers_;
+  const ContactFragments& fragments_;
   const ContactSurface& s_;
   std::vector<std::int32_t> nodes_;
 };
@@ -55,11 +56,10 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
   std::vector<char> read(model.blocks.size(), 0);
   for (const ContactRows& rows : work.rows)
     for (const ContactRow& row : rows.all) {
-      const auto mark = [&](int mover) { read[work.movers.block[mover]] = 1; };
-      mark(row.source_mover);
-      each_mover(work, row, mark);
+      read[row.source_block] = 1;
+      each_target_block(model, work, row, [&](int block) { read[block] = 1; });
     }
-  NodesRead nodes(model, work.movers);
+  NodesRead nodes(model, work.fragments);
   std::vector<int> rigid;
   for (int b = 0; b < blocks; ++b) {
     const Block& block = model.blocks[b];
@@ -71,7 +71,7 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
       continue;
     }
     if (work.knows_motions ||
-        touches_itself(model, work.movers, b)) // each rank finds all its pairs of tetrahedra
+        touches_itself(model, work.fragments, b)) // each rank finds all its pairs of tetrahedra
       nodes.add_block(b);
     else if (read[b])
       nodes.add_surface(b);

@@ -1,6 +1,5 @@
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 
-#include "libcdem/contact/broad_phase/movers.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/narrow_phase/parted.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
@@ -12,12 +11,12 @@ namespace cdem {
 namespace {
 
 CDEM_INLINE void awake_kernel(const double* travelled, const float* recheck, const int* source,
-                              const int* mover, std::int64_t count, std::uint64_t* awake) {
+                              const int* block, std::int64_t count, std::uint64_t* awake) {
   for (std::int64_t begin = 0; begin < count; begin += contact_rows_per_chunk) {
     const std::int64_t end = std::min(count, begin + contact_rows_per_chunk);
     std::uint64_t bits = 0;
     for (std::int64_t r = begin; r < end; ++r)
-      bits |= static_cast<std::uint64_t>(travelled[source[r]] + travelled[mover[r]] >= recheck[r])
+      bits |= static_cast<std::uint64_t>(travelled[source[r]] + travelled[block[r]] >= recheck[r])
               << (r - begin);
     *awake++ = bits;
   }
@@ -62,7 +61,7 @@ void wake_hindered(ContactWork& work, RowsAsleep& rows) {
   for (std::size_t chunk = 0; chunk < rows.hindered.size(); ++chunk)
     for (std::uint64_t bits = rows.hindered[chunk]; bits != 0; bits &= bits - 1) {
       const std::size_t r = chunk * contact_rows_per_chunk + static_cast<std::size_t>(__builtin_ctzll(bits));
-      if (!work.edges_touched.movers[rows.source_mover[r]] || !work.edges_touched.movers[rows.mover[r]])
+      if (!work.edges_touched.blocks[rows.source_block[r]] || !work.edges_touched.blocks[rows.block[r]])
         continue;
       rows.awake[chunk] |= bits & -bits;
       if (const int p = work.rows[Contact::edge].all[r].pair; p >= 0) {
@@ -74,7 +73,7 @@ void wake_hindered(ContactWork& work, RowsAsleep& rows) {
 }
 
 void wake_all(RowsAsleep& rows) {
-  const std::size_t count = rows.mover.size();
+  const std::size_t count = rows.block.size();
   for (std::size_t chunk = 0; chunk < rows.awake.size(); ++chunk)
     rows.awake[chunk] = ~std::uint64_t{0} >> (contact_rows_per_chunk -
                                               std::min<std::size_t>(contact_rows_per_chunk,
@@ -86,11 +85,11 @@ void wake_all(RowsAsleep& rows) {
 void find_awake(const Model& model, const State& state, ContactWork& work) {
   for (ContactRows& of_kind : work.rows) {
     RowsAsleep& rows = of_kind.asleep;
-    rows.awake.resize((rows.mover.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk);
-    // Those of which the two movers have travelled by the recheck distance together: a bit each.
-    simd::best<awake_kernel>(work.motion.travelled.data(), rows.recheck_distance.data(),
-                             rows.source_mover.data(), rows.mover.data(),
-                             static_cast<std::int64_t>(rows.mover.size()), rows.awake.data());
+    rows.awake.resize((rows.block.size() + contact_rows_per_chunk - 1) / contact_rows_per_chunk);
+    // Those of which the two blocks have travelled by the recheck distance together: a bit each.
+    simd::best<awake_kernel>(work.travel.travelled.data(), rows.recheck_distance.data(),
+                             rows.source_block.data(), rows.block.data(),
+                             static_cast<std::int64_t>(rows.block.size()), rows.awake.data());
   }
   for (std::size_t p = 0; p < work.rigid_pairs.all.size(); ++p)
     if (work.options.looks_at_all ||
@@ -101,36 +100,6 @@ void find_awake(const Model& model, const State& state, ContactWork& work) {
     if (work.options.looks_at_all)
       wake_all(rows.asleep);
   }
-}
-
-bool sleeps_on(const ContactWork& work, const ContactRow& row, float& recheck_distance) {
-  if (row.several_movers)
-    return travelled(work, row) < row.recheck_distance;
-  if (row.allowed <= 0)
-    return false;
-  constexpr double worth_while = 0.05; // of what it was allowed
-  const double left =
-      row.allowed - gone_since(work.motion, row.source_mover, row.mover, row.drifts, row.swings);
-  if (left < worth_while * row.allowed)
-    return false;
-  recheck_distance =
-      rounded_down(work.motion.travelled[row.source_mover] + work.motion.travelled[row.mover] + left);
-  return true;
-}
-
-void fall_asleep(const ContactWork& work, int blocks, ContactRow& row, float& recheck_distance) {
-  recheck_distance = row.several_movers ? 0 : row.recheck_distance;
-  const int a = row.source_mover, b = row.mover;
-  row.allowed = 0;
-  if (a < blocks || b < blocks)
-    return;
-  const double left = row.recheck_distance - work.motion.travelled[a] - work.motion.travelled[b];
-  if (left <= 0 || std::isinf(left))
-    return;
-  row.allowed = rounded_down(left);
-  row.swings = static_cast<float>(work.motion.swing[a] + work.motion.swing[b]);
-  for (int axis = 0; axis < 3; ++axis)
-    row.drifts[axis] = static_cast<float>(work.motion.drift[b][axis] - work.motion.drift[a][axis]);
 }
 
 } // namespace cdem

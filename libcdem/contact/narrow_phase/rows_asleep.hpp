@@ -9,34 +9,34 @@ namespace cdem {
 // Writes RowsAsleep::awake, and the motion of the rigid pairs whose rows are awake.
 void find_awake(const Model&, const State&, ContactWork&);
 
-// The movers of a row's targets. visit: takes the number of one.
+// The blocks of a row's targets. visit: takes the number of one.
 template <class Visit>
-void each_mover(const ContactWork& work, const ContactRow& row, const Visit& visit) {
-  if (!row.several_movers) {
-    visit(row.mover);
+void each_target_block(const Model& model, const ContactWork& work, const ContactRow& row,
+                       const Visit& visit) {
+  if (!row.several_blocks) {
+    visit(row.block);
     return;
   }
   int last = -1; // triangles stand by block
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
-    const int mover = work.movers.of_triangle[work.rows[Contact::spring].candidates[i].target];
-    if (mover != last)
-      visit(mover);
-    last = mover;
+    const int block = model.surface.triangles[work.rows[Contact::spring].candidates[i].target].block;
+    if (block != last)
+      visit(block);
+    last = block;
   }
 }
 
 // m, since the search: what recheck distances of a row of no rigid pair are compared with. No target comes nearer to the
 // source than by its increase.
-inline double travelled(const ContactWork& work, const ContactRow& row) {
-  double sum = work.motion.travelled[row.source_mover];
-  each_mover(work, row, [&](int mover) { sum += work.motion.travelled[mover]; });
+inline double travelled(const Model& model, const ContactWork& work, const ContactRow& row) {
+  double sum = work.travel.travelled[row.source_block];
+  each_target_block(model, work, row, [&](int block) { sum += work.travel.travelled[block]; });
   return sum;
 }
 
-// Whether a row whose movers have travelled far enough to be looked at may sleep on, since they did so together.
-bool sleeps_on(const ContactWork&, const ContactRow&, float& recheck_distance);
-
-// After it has been looked at, of a row that is of no rigid pair. blocks: in the model.
-void fall_asleep(const ContactWork&, int blocks, ContactRow&, float& recheck_distance);
+// Whether a row of several blocks, of which find_awake knows no more than that, may sleep on.
+inline bool sleeps_on(const Model& model, const ContactWork& work, const ContactRow& row) {
+  return row.several_blocks && travelled(model, work, row) < row.recheck_distance;
+}
 
 } // namespace cdem

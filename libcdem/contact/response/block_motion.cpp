@@ -104,7 +104,7 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
 double frequency_on_contacts(const Model& model, const ContactWork& work, int block_a, int block_b) {
   double sum = 0; // 1/s2
   for (const int block : {block_a, block_b})
-    if (work.motion.last_displacement[block] != 0) { // else it is held
+    if (work.travel.last_displacement[block] != 0) { // else it is held
       const Block& b = model.blocks[block];
       sum += work.block_stiffness[block] / (b.mass.volume * model.bodies[b.body].material.density);
     }
@@ -113,7 +113,7 @@ double frequency_on_contacts(const Model& model, const ContactWork& work, int bl
 
 bool shares_friction(const Model& model, const ContactWork& work, int block_a, int block_b) {
   return (model.blocks[block_a].rigid < 0 || model.blocks[block_b].rigid < 0) &&
-         !work.movers.broken[block_a] && !work.movers.broken[block_b];
+         !work.fragments.broken[block_a] && !work.fragments.broken[block_b];
 }
 
 double felt_over_usual(const ContactWork& work, int block_a, int block_b) {
@@ -123,7 +123,7 @@ double felt_over_usual(const ContactWork& work, int block_a, int block_b) {
 }
 
 bool is_in_one_piece(const Model& model, const ContactWork& work, int block) {
-  return model.blocks[block].meshed && !work.movers.broken[block];
+  return model.blocks[block].meshed && !work.fragments.broken[block];
 }
 
 void find_block_motions(const Model& model, const State& state, ContactWork& work, int threads) {
