@@ -154,6 +154,11 @@ ActiveSurface active_surface(const Model& model, const State& state, const Conta
         part.outlines[b].extend(corner);
     }
   });
+  part.fragment_outlines.resize(fragments.one_piece.size());
+  for (std::size_t i = 0; i < part.triangles.size(); ++i)
+    if (const int fragment = fragments.number_of_triangle[part.triangles[i]]; fragment >= 0)
+      for (const geom::Vec3& corner : part.facets[i].x)
+        part.fragment_outlines[fragment].extend(corner);
   return part;
 }
 

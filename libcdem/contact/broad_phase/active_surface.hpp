@@ -74,8 +74,13 @@ struct ActiveSurface {
   std::vector<geom::Box> boxes;       // per triangle, with its margin
   std::vector<geom::Box> block_boxes; // per block, with margins
   std::vector<geom::Box> outlines;    // per block, without
+  std::vector<geom::Box> fragment_outlines; // per fragment of a broken block, likewise
 
   bool finite() const;
+  // Whether x is in the outline of a fragment, grown by so much, m. fragment: by its number; -1: of a whole block, yes.
+  bool in_outline(int fragment, const geom::Vec3& x, double by) const {
+    return fragment < 0 || fragment_outlines[fragment].contains(x, by);
+  }
 };
 ActiveSurface active_surface(const Model&, const State&, const ContactFragments&, const SearchMargin&,
                              int threads);

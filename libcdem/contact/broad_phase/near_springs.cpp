@@ -107,7 +107,8 @@ private:
       spring[corner] = weighted(x, spring_weights(corner));
       gets_in[corner] =
           may_get_into(model_, work_, active_, spring[corner], triangle(pairs[begin].first).block,
-                       triangle(pairs[begin].second).block, skins_);
+                       triangle(pairs[begin].second).block, skins_) &&
+          active_.in_outline(fragment(pairs[begin].second), spring[corner], skins);
     }
     const bool of_tets = of_several_tets(work_.fragments, fragment(pairs[begin].second));
     std::array<NearestOfTets, 3> of_surface;

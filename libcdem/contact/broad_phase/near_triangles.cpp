@@ -45,31 +45,84 @@ std::vector<geom::Box> boxes_of(const ActiveSurface& active, const std::vector<i
   return boxes;
 }
 
+// Triangles of one block. Most fragments are a few tetrahedra, and most sources are outside of their outlines: those are asked
+// for first.
+struct TargetsByFragment {
+  std::vector<int> of_large,
+      of_small; // of whole blocks and large fragments, and of others, fragment by fragment
+  std::vector<int> small, begin{0};      // the small fragments, and where theirs begin; the last is the end
+  std::vector<geom::Box> small_outlines; // of each
+};
+
+TargetsByFragment by_fragment(const ContactWork& work, const ActiveSurface& active,
+                              std::vector<int> targets) {
+  constexpr std::ptrdiff_t few = 32;
+  const auto fragment = [&](int target) {
+    return work.fragments.number_of_triangle[active.triangles[target]];
+  };
+  std::stable_sort(targets.begin(), targets.end(), [&](int a, int b) { return fragment(a) < fragment(b); });
+  TargetsByFragment sorted;
+  for (auto first = targets.begin(), last = first; first != targets.end(); first = last) {
+    const int here = fragment(*first);
+    last = std::find_if(first, targets.end(), [&](int target) { return fragment(target) != here; });
+    if (here < 0 || last - first > few) {
+      sorted.of_large.insert(sorted.of_large.end(), first, last);
+      continue;
+    }
+    sorted.of_small.insert(sorted.of_small.end(), first, last);
+    sorted.small.push_back(here);
+    sorted.begin.push_back(static_cast<int>(sorted.of_small.size()));
+    sorted.small_outlines.push_back(active.fragment_outlines[here]);
+  }
+  return sorted;
+}
+
 // Those of one block's triangles that may get into another block, with what of it is near them.
 void look(const Model& model, const ContactWork& work, const ActiveSurface& active,
           const std::vector<int>& of_one, int one, int other, const Skins& skins, Pairs& pairs) {
   const double by_one = skins.beyond_own(one), by_other = skins.beyond_own(other);
   std::vector<int> sources;
+  std::vector<Corners> springs;
   geom::Box around;
   for (const int i : of_one) {
+    Corners spring;
     bool gets_in = false;
-    for (int corner = 0; corner < 3 && !gets_in; ++corner)
-      gets_in = may_get_into(model, work, active, weighted(active.facets[i].x, spring_weights(corner)), one,
-                             other, skins);
+    for (int corner = 0; corner < 3; ++corner) {
+      spring[corner] = weighted(active.facets[i].x, spring_weights(corner));
+      gets_in = gets_in || may_get_into(model, work, active, spring[corner], one, other, skins);
+    }
     if (!gets_in)
       continue;
     sources.push_back(i);
+    springs.push_back(spring);
     const geom::Box box = grown(active.boxes[i], by_one);
     around.extend(box.min);
     around.extend(box.max);
   }
   if (sources.empty())
     return;
-  const double further = 2 * skins.between(one, other);
+  const double both = skins.between(one, other), further = 2 * both;
   around = grown(around, further);
-  const std::vector<int> targets = inside(active, other, by_other, around);
-  each_meeting(boxes_of(active, sources, by_one), further, boxes_of(active, targets, by_other),
-               [&](std::size_t i, std::size_t j) { pairs.emplace_back(sources[i], targets[j]); });
+  const std::vector<geom::Box> source_boxes = boxes_of(active, sources, by_one);
+  const auto may_hold = [&](int fragment, std::size_t i) { // the source's springs
+    return std::any_of(springs[i].begin(), springs[i].end(),
+                       [&](const geom::Vec3& spring) { return active.in_outline(fragment, spring, both); });
+  };
+  const TargetsByFragment targets = by_fragment(work, active, inside(active, other, by_other, around));
+  each_meeting(source_boxes, further, boxes_of(active, targets.of_large, by_other),
+               [&](std::size_t i, std::size_t j) {
+                 const int target = targets.of_large[j];
+                 if (may_hold(work.fragments.number_of_triangle[active.triangles[target]], i))
+                   pairs.emplace_back(sources[i], target);
+               });
+  each_meeting(source_boxes, both, targets.small_outlines, [&](std::size_t i, std::size_t k) {
+    if (!may_hold(targets.small[k], i))
+      return;
+    const geom::Box box = grown(source_boxes[i], further);
+    for (int j = targets.begin[k]; j < targets.begin[k + 1]; ++j)
+      if (!apart(box, grown(active.boxes[targets.of_small[j]], by_other)))
+        pairs.emplace_back(sources[i], targets.of_small[j]);
+  });
 }
 
 } // namespace
