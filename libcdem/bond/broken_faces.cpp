@@ -1,6 +1,6 @@
 #include "libcdem/bond/broken_faces.hpp"
 
-#include "libcdem/bond/face_frame.hpp"
+#include "libcdem/bond/leaving_faces.hpp"
 #include "libcdem/joint/coulomb_friction.hpp"
 #include "libcdem/joint/mohr_coulomb.hpp"
 
@@ -147,7 +147,7 @@ private:
       for (int point = 0; point < 3; ++point)
         energy += response_[point].energy + 0.5 * response_[point].force.dot(moved(point));
       if (law_.hand_over_due && (leaves(state, lane_) || is_gone(now_, size)))
-        sums.friction += let_go(now_, size, energy, lane_, state, sums);
+        sums.friction += cdem::leave(now_, size, energy, lane_, state, sums);
       return;
     }
     for (int point = 0; point < 3; ++point)
@@ -165,20 +165,6 @@ private:
 };
 
 } // namespace
-
-double let_go(const FaceFrame& f, double size, double energy, int lane, FaceStateBatch& state,
-              FaceSums& sums) {
-  bool open = true;
-  for (const geom::Vec3& gap : f.gap)
-    open = open && f.in_axes(gap)[2] > 0;
-  double& part = state.let_go[lane];
-  const double before = part;
-  part = open ? 1 : std::max(before, let_go_of(f, size));
-  const double lost = (part - before) / (1 - before) * energy;
-  sums.hands_over = sums.hands_over || part >= 1 || !leaves(state, lane);
-  set_hand_over(state, lane, part >= 1 ? HandOver::done : HandOver::leaving);
-  return lost;
-}
 
 void one_by_one(const FaceBatch& batch, unsigned faces, const FaceMotion& motion, const FaceLaw& law,
                 bool breaking, std::int64_t first_spring, FaceStateBatch& state, FaceSlipBatch* slips,

@@ -18,8 +18,4 @@ namespace cdem {
 void one_by_one(const FaceBatch&, unsigned faces, const FaceMotion&, const FaceLaw&, bool breaking,
                 std::int64_t first_spring, FaceStateBatch&, FaceSlipBatch*, simd::Vec (&force)[3], FaceSums&);
 
-// What a broken face that has parted or slid away lets go of; it is handed over once all its springs are open, or it has slid
-// off. size: m, of the face; energy: J, stored in its springs. Returns what of it is lost, J.
-double let_go(const FaceFrame&, double size, double energy, int lane, FaceStateBatch&, FaceSums&);
-
 } // namespace cdem

@@ -1,4 +1,4 @@
-// What one point of a cracking face carries and stores, per area (bond/cohesive_faces.hpp). Vectors stand in the face's own
+// What one point of a cracking face carries and stores, per area (bond/freed_face.hpp). Vectors stand in the face's own
 // axes; j is the relative displacement since the crack began. T: double, or a vector of doubles for the points of several faces.
 //
 // The law begins drawn by w0: as if a spring of the stiffness k carried what stood there. Pressure, and the shear that its

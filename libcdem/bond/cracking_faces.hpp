@@ -1,4 +1,4 @@
-// Faces of cohesive bodies that crack, and those that hold again after a crack that did not go on (bond/cohesive_faces.hpp),
+// Faces of cohesive bodies that crack, and those that hold again after a crack that did not go on (bond/freed_face.hpp),
 // several side by side.
 #pragma once
 
@@ -12,9 +12,8 @@ struct CohesiveChunk {
   const FaceBatch* batches;
   const FaceMotion& motion;
   const FaceJoints& joints;
-  double tan_friction; // of faces without a strength of their own
+  const FaceLaw& law;
   bool breaking;
-  bool hands_over, due; // as in FaceLaw
   FaceStateBatch* state;
   CohesiveFace* cohesive;
   Node* force;

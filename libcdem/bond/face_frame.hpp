@@ -56,12 +56,6 @@ FaceFrame face_frame(const FaceNodes& at, const Place& place, const Moved& moved
   return f;
 }
 
-// The forces at the corners of a face that those at its points make.
-inline std::array<geom::Vec3, 3> at_corners(const geom::Vec3 (&pull)[3]) {
-  const geom::Vec3 common = (pull[0] + pull[1] + pull[2]) / 6;
-  return {common + 0.5 * pull[0], common + 0.5 * pull[1], common + 0.5 * pull[2]};
-}
-
 inline FaceNodes places_of(const FaceBatch& batch, int lane) { // of the chunk
   FaceNodes places;
   for (int k = 0; k < 3; ++k) {
@@ -82,28 +76,6 @@ inline FaceFrame face_frame(const FaceBatch& batch, int lane, const FaceMotion& 
 inline FaceFrame face_frame(const FaceNodes& nodes, const Node* position, const Node* displacement) {
   return face_frame(
       nodes, [&](int i) { return vec(position[i]); }, [&](int i) { return vec(displacement[i]); });
-}
-
-// Parts of a face's size by which its sides have parted, or slid away sideways, at one of its points, where it is handed over.
-// Until then its own springs are the contact between them: they know where its sides met, and so close where they opened.
-inline constexpr double parted_from = 0.01, slid_from = 0.01;
-
-// Part of its size by which it has slid away where nothing of its springs acts any more.
-inline constexpr double slid_off_from = 0.05;
-
-// Part of the springs of a face that leaves which has let go. size: m.
-inline double let_go_of(const FaceFrame& f, double size) {
-  double slid = 0; // m
-  for (const geom::Vec3& gap : f.gap)
-    slid = std::max(slid, f.in_axes(gap).head<2>().norm());
-  return std::clamp((slid / size - slid_from) / (slid_off_from - slid_from), 0.0, 1.0);
-}
-
-inline bool is_gone(const FaceFrame& f, double size) { // size: m
-  return std::any_of(f.gap.begin(), f.gap.end(), [&](const geom::Vec3& gap) {
-    const geom::Vec3 g = f.in_axes(gap);
-    return g[2] > parted_from * size || g.head<2>().norm() > slid_from * size;
-  });
 }
 
 } // namespace cdem

@@ -2,7 +2,7 @@
 // What happens seldom is left to broken_faces.hpp, face by face: springs that may break now, and faces that are handed over.
 #pragma once
 
-#include "libcdem/bond/face_frame.hpp"
+#include "libcdem/bond/leaving_faces.hpp"
 #include "libcdem/joint/coulomb_friction.hpp"
 #include "libcdem/parallel/simd.hpp"
 #include "libcdem/parallel/triple.hpp"

@@ -1,6 +1,6 @@
 #include "libcdem/element/mesh_fields.hpp"
 
-#include "libcdem/bond/cohesive_faces.hpp"
+#include "libcdem/bond/freed_face.hpp"
 #include "libcdem/element/rigid_motion.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/state/places.hpp"

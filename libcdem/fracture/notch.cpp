@@ -1,6 +1,6 @@
 #include "libcdem/fracture/notch.hpp"
 
-#include "libcdem/bond/cohesive_faces.hpp"
+#include "libcdem/bond/freed_face.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/model/build/add_meshes.hpp"

@@ -1,6 +1,6 @@
 #include "libcdem/load/initial_stress.hpp"
 
-#include "libcdem/bond/cohesive_faces.hpp"
+#include "libcdem/bond/freed_face.hpp"
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/element/rigid_motion.hpp"

@@ -1,7 +1,7 @@
 // Broken faces of a mesh: how they turn, slide, take energy, and when they are let go.
 #include "tests/libcdem/two_halves.hpp"
 
-#include "libcdem/bond/face_frame.hpp"
+#include "libcdem/bond/leaving_faces.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
 

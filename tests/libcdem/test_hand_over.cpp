@@ -2,7 +2,7 @@
 #include "tests/libcdem/boxes.hpp"
 #include "tests/libcdem/two_halves.hpp"
 
-#include "libcdem/bond/face_frame.hpp"
+#include "libcdem/bond/leaving_faces.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/state/places.hpp"
 
