@@ -5,22 +5,15 @@
 #include <algorithm>
 
 namespace cdem {
-namespace {
-
-bool intact(std::uint8_t mode) {
-  return mode == static_cast<std::uint8_t>(BondMode::intact);
-}
-
-} // namespace
 
 bool is_untouched(const State& state, std::int64_t batch, int lane) {
   const auto& modes = state.faces[batch].mode;
-  return intact(modes[0][lane]) && intact(modes[1][lane]) && intact(modes[2][lane]);
+  return is_intact(modes[0][lane]) && is_intact(modes[1][lane]) && is_intact(modes[2][lane]);
 }
 
 bool is_bonded(const State& state, std::int64_t batch, int lane) {
   const auto& modes = state.faces[batch].mode;
-  return intact(modes[0][lane]) || intact(modes[1][lane]) || intact(modes[2][lane]);
+  return is_intact(modes[0][lane]) || is_intact(modes[1][lane]) || is_intact(modes[2][lane]);
 }
 
 namespace {
@@ -28,7 +21,7 @@ namespace {
 ToldOfBonds bonds_of(const State& state, const Interface& interface) {
   const auto begin = state.bond_mode.begin() + interface.point_begin,
              end = state.bond_mode.begin() + interface.point_end;
-  const auto whole = std::count_if(begin, end, intact);
+  const auto whole = std::count_if(begin, end, is_intact);
   return whole == end - begin ? ToldOfBonds::whole
          : whole > 0          ? ToldOfBonds::some_broken
                               : ToldOfBonds::all_broken;
@@ -50,13 +43,11 @@ void tell_of_bonds(const Model& model, State& state, const std::vector<char>& bl
     if (blocks[chunk.block] == 0)
       return;
     FaceStateBatch& face = state.faces[batch];
-    const auto add = [&](bool is_so, std::uint8_t told) {
-      return static_cast<std::uint8_t>(is_so ? told : 0);
-    };
     const bool gone = handed_over(face, lane);
-    face.told[lane] = add(!is_untouched(state, batch, lane), ToldOfFace::broken) |
-                      add(!is_bonded(state, batch, lane), ToldOfFace::separate) |
-                      add(gone || leaves(face, lane), ToldOfFace::left) | add(gone, ToldOfFace::gone);
+    face.told[lane] = static_cast<std::uint8_t>((is_untouched(state, batch, lane) ? 0 : ToldOfFace::broken) |
+                                                (is_bonded(state, batch, lane) ? 0 : ToldOfFace::separate) |
+                                                (gone || leaves(face, lane) ? ToldOfFace::left : 0) |
+                                                (gone ? ToldOfFace::gone : 0));
   });
 }
 
@@ -73,7 +64,7 @@ std::vector<int> fragments_of_nodes(const Model& model, const State& state, Join
   for (std::size_t p = 0; p < model.points.size(); ++p) {
     const int frame = model.interfaces[model.points[p].interface].frame;
     if (by == Joins::told && frame >= 0 ? told_of(state, frame) != ToldOfBonds::all_broken
-                                        : intact(state.bond_mode[p]))
+                                        : is_intact(state.bond_mode[p]))
       sets.unite(model.points[p].node_a[0], model.points[p].node_b[0]);
   }
   each_face_spring(model.mesh, [&](const MeshChunk& chunk, const FaceSpringPlace& at) {
