@@ -4,9 +4,9 @@
 #include "libcdem/bond/interface_frame.hpp"
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
-#include "libcdem/element/mesh_fields.hpp"
 #include "libcdem/element/small_strain.hpp"
 #include "libcdem/fracture/cut_motion.hpp"
+#include "libcdem/fracture/place_in_block.hpp"
 #include "libcdem/fracture/renew_interfaces.hpp"
 #include "libcdem/model/build/freed_meshes.hpp"
 #include "libcdem/state/carry.hpp"
@@ -20,9 +20,6 @@
 namespace cdem {
 namespace {
 
-// A place counts as inside a tet when no barycentric weight is below this.
-constexpr double inside = -1e-6;
-
 using FaceKey = std::array<int, 4>; // block a, face a, block b, face b of the old model
 
 std::map<FaceKey, int> interfaces_by_face(const Model& model) {
@@ -32,42 +29,6 @@ std::map<FaceKey, int> interfaces_by_face(const Model& model) {
     found[{f.block_a, f.face_a, f.block_b, f.face_b}] = i;
   }
   return found;
-}
-
-Eigen::Vector4d weights(const Model& model, int tet, const geom::Vec3& place) {
-  const geom::Tet& t = model.tets[tet];
-  const auto& x = model.node_position;
-  geom::Mat3 edges;
-  edges << x[t[1]] - x[t[0]], x[t[2]] - x[t[0]], x[t[3]] - x[t[0]];
-  const geom::Vec3 w = edges.inverse() * (place - x[t[0]]);
-  return {1 - w.sum(), w[0], w[1], w[2]};
-}
-
-// The tet of an old block that holds a place best.
-int tet_at(const Model& old, const Block& block, const geom::Vec3& place) {
-  int best = block.tet_begin;
-  double best_weight = -1e30;
-  for (int tet = block.tet_begin; tet < block.tet_end; ++tet)
-    if (const double w = weights(old, tet, place).minCoeff(); w > best_weight) {
-      best = tet;
-      best_weight = w;
-    }
-  return best;
-}
-
-// Stress of an old block at a place: mean over the tets that hold it, so that mirror images stay mirror images.
-geom::Mat3 stress_at(const Model& old, const State& from, int block, const geom::Vec3& place) {
-  const Block& b = old.blocks[block];
-  geom::Mat3 sum = geom::Mat3::Zero();
-  int count = 0;
-  for (int tet = b.tet_begin; tet < b.tet_end; ++tet)
-    if (weights(old, tet, place).minCoeff() >= inside) {
-      sum += matrix(b.meshed ? mesh_stress(old, from, tet) : tet_stress(old, from, tet));
-      ++count;
-    }
-  if (count == 0)
-    return matrix(block_stress(old, from, block));
-  return sum / count;
 }
 
 int nearest_point(const Model& old, const Interface& interface, const geom::Vec3& place) {
@@ -237,7 +198,7 @@ private:
         } else {
           const geom::Vec3& place = model.node_position[node];
           const int tet = tet_at(old_, before, place);
-          map.blended.push_back({node, old_.tets[tet], weights(old_, tet, place)});
+          map.blended.push_back({node, old_.tets[tet], weights_in_tet(old_, tet, place)});
         }
       for (int tet = now.tet_begin; tet < now.tet_end; ++tet)
         old_tet[tet] =
