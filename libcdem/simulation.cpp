@@ -80,8 +80,6 @@ RelaxResult Simulation::relax(const RelaxOptions& options) {
     sample_every(context, options.history_every);
     result = cdem::relax(context, options);
   });
-  if (options.breaking)
-    impl_->warnings.of_bent_facets(false);
   return result;
 }
 
@@ -97,8 +95,6 @@ RunResult Simulation::run(const RunOptions& options) {
       SimulatedModel::StepChoice{options.safety, options.time_step, options.mass_scaling.step,
                                  options.mass_scaling.factor});
   impl_->warnings.look_for_dry_flows(begin, time());
-  if (options.breaking)
-    impl_->warnings.of_bent_facets(true);
   return result;
 }
 

@@ -2,10 +2,8 @@
 
 #include "libcdem/bond/fragments.hpp"
 #include "libcdem/element/small_strain.hpp"
-#include "libcdem/fracture/facet_traction.hpp"
 #include "libcdem/load/gone_body.hpp"
 #include "libcdem/load/resolve.hpp"
-#include "libcdem/results/energy.hpp"
 #include "libcdem/results/fields.hpp"
 #include "libcdem/results/tet_at_place.hpp"
 #include "libcdem/state/places.hpp"
@@ -21,7 +19,6 @@ namespace {
 
 constexpr double least_weight = 1e-9; // of a node in the value at a place; less is rounding
 constexpr double tellable = 0.01;     // share of a load that a support takes
-constexpr double beyond_doubt = 1.25; // parts of its strength that a whole facet carries
 
 bool holds_still(const HeldNode& node) {
   const auto none = [](const Node& n) { return n.x == 0 && n.y == 0 && n.z == 0; };
@@ -175,36 +172,6 @@ void Warnings::of_falling_forces() {
                    "they are now, up to {:.3g} of their full size; call model:run until "
                    "then, or model:relax_excavation{{}}",
                    end, share));
-}
-
-// Between joined blocks without zones, by another way than the one that cracks them. Strengths that follow the rate are not known
-// here.
-void Warnings::of_bent_facets(bool in_real_time) {
-  if (!may_have_facets(model_))
-    return;
-  // Where waves run, a facet may be beyond its strength for less time than a crack takes, and inertia makes its share uncertain.
-  const EnergyLedger energy = cdem::energy(model_, of_.whole());
-  if (in_real_time && energy.kinetic > 0.01 * (energy.elastic + energy.springs))
-    return;
-  std::map<int, FacetTraction> worst; // by body
-  for (const FacetTraction& facet : facet_tractions(model_, of_.whole())) {
-    const Body& body = model_.bodies[facet.body];
-    if (facet.utilisation > beyond_doubt && facet.is_bent() && !(in_real_time && body.has_rate_effect()) &&
-        bent_.count(body.name) == 0)
-      if (const auto at = worst.try_emplace(facet.body, facet).first;
-          facet.utilisation > at->second.utilisation)
-        at->second = facet;
-  }
-  for (const auto& [number, facet] : worst) {
-    const std::string& name = model_.bodies[number].name;
-    bent_.insert(name);
-    tell(fmt::format("bonds = \"cohesive\" of body \"{}\": a joint between two blocks without zones is whole "
-                     "and carries {:.3g} "
-                     "times its strength at ({:.4g}, {:.4g}, {:.4g}) m, by the force and the moment that "
-                     "pass through it: give the body zone_size = {:.3g}",
-                     name, facet.utilisation, facet.worst.x(), facet.worst.y(), facet.worst.z(),
-                     facet.least_extent / 4));
-  }
 }
 
 void Warnings::of_initial_stress(const InitialStress& field) {

@@ -22,9 +22,8 @@ public:
   void of_distant_table(const std::shared_ptr<const WaterTable>&);
   void of_open_water(const StillWater&);
   void of_joined_pieces(const Selection& turns_rigid);
-  void of_lost_probes();                  // when rock has been removed
-  void of_falling_forces();               // of an excavation, before a relaxation
-  void of_bent_facets(bool in_real_time); // after a stage in which bonds may break
+  void of_lost_probes();    // when rock has been removed
+  void of_falling_forces(); // of an excavation, before a relaxation
   // Looks which flows wet a face between these times of a run, s.
   void look_for_dry_flows(double begin, double end);
   // Flows of water that has reached no face in any run so far, in words.
@@ -42,7 +41,6 @@ private:
   const Conditions& conditions_;
   const RunLog& log_;
   std::set<std::string> told_;
-  std::set<std::string> bent_; // bodies that were told of
   // Initial stresses that the script has given before the first stage, and the blocks of each.
   struct GivenStress {
     InitialStress field;

@@ -47,7 +47,6 @@ struct Moments {
 void add_stars(const Model& model, const Block& block, StarBlocks& stars) {
   struct Region {
     std::vector<int> common; // nodes that all its tets have
-    geom::Box box;
     Moments moments;
   };
   const MeshData& mesh = model.mesh;
@@ -67,10 +66,8 @@ void add_stars(const Model& model, const Block& block, StarBlocks& stars) {
                                          }),
                           region.common.end());
     std::array<geom::Vec3, 4> corners;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 4; ++k)
       corners[k] = model.node_position[model.tets[mesh.first_tet + t][k]];
-      region.box.extend(corners[k]);
-    }
     region.moments.add(corners);
   }
   for (auto at = regions.begin(); at != regions.end();)
@@ -79,9 +76,7 @@ void add_stars(const Model& model, const Block& block, StarBlocks& stars) {
     return;
   std::map<int, int> number;
   for (const auto& [region, of] : regions) {
-    number[region] = static_cast<int>(stars.extent.size());
-    const geom::Vec3 extent = of.box.max - of.box.min;
-    stars.extent.push_back(extent.minCoeff());
+    number[region] = static_cast<int>(stars.shape.size());
     stars.shape.push_back(of.moments.shape());
   }
   stars.of_tet.resize(model.tets.size() - static_cast<std::size_t>(mesh.first_tet), -1);
@@ -90,13 +85,14 @@ void add_stars(const Model& model, const Block& block, StarBlocks& stars) {
       stars.of_tet[t] = at->second;
 }
 
-} // namespace
-
+// By the bonding of its body alone.
 bool may_have_stars(const Model& model, const Block& block) {
   const Bonding& bonding = model.bodies[block.body].bonding;
   return !block.convex() && block.rigid < 0 && bonding.is_cohesive() && bonding.between_regions &&
          !bonding.everywhere;
 }
+
+} // namespace
 
 StarBlocks star_blocks(const Model& model) {
   StarBlocks stars;

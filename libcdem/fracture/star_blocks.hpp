@@ -10,12 +10,9 @@
 namespace cdem {
 
 struct StarBlocks {
-  std::vector<int> of_tet;    // per tet of the mesh: its block; -1: none of these; empty: there are none
-  std::vector<double> extent; // m, of each, the least along an axis
-  std::vector<double> shape;  // of each, the least extent in any direction over the largest
+  std::vector<int> of_tet;   // per tet of the mesh: its block; -1: none of these; empty: there are none
+  std::vector<double> shape; // of each, the least extent in any direction over the largest
 };
 StarBlocks star_blocks(const Model&);
-
-bool may_have_stars(const Model&, const Block&); // by the bonding of its body alone
 
 } // namespace cdem

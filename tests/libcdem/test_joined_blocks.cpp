@@ -1,6 +1,5 @@
 // Bonded blocks with bonds = "cohesive": one mesh, whose joints carry exactly the uniform traction and break at T.
 #include "libcdem/bond/fragments.hpp"
-#include "libcdem/fracture/facet_traction.hpp"
 #include "libcdem/fracture/split_nodes.hpp"
 #include "libcdem/fracture/star_blocks.hpp"
 #include "libcdem/join_blocks.hpp"
@@ -184,59 +183,6 @@ TEST_CASE("joined blocks: a cut or a body whose joint is glued never breaks", "[
   CHECK(held == Approx(std::sqrt(1 + 0.04) + (all ? 1 : 0)));
 }
 
-TEST_CASE("joined blocks: the traction on a facet is that of a uniform stress, freed or not",
-          "[joined][facets]") {
-  const geom::Assembly shape = GENERATE(cells(60), wall());
-  const Mat3 stress = symmetric(2e6, -1e6, 3e6, 0.5e6, -1.5e6, 0.7e6);
-  System s(build({joined(shape)}));
-  for (int t = 0; t < static_cast<int>(s.model.tets.size()); ++t)
-    set_mesh_stress(s.model, s.state, t,
-                    {stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(0, 2)});
-  if (GENERATE(false, true))
-    free_all(s);
-  const std::vector<cdem::FacetTraction> facets = facet_tractions(s.model, s.state);
-  CHECK(facets.size() >= shape.blocks.size());
-  for (const cdem::FacetTraction& facet : facets) {
-    CHECK((facet.mean - stress * facet.normal).norm() < 1e-8 * stress.norm());
-    CHECK((facet.at(facet.worst) - facet.mean).norm() < 1e-8 * stress.norm());
-  }
-}
-
-TEST_CASE("joined blocks: the traction on a facet has the force and the moment that pass through it",
-          "[joined][facets]") {
-  // A cantilever of four blocks with an end load F: N / A + F h / (b d^2 / 6) at the edges of each joint.
-  System s(build({joined(geom::grid({4, 0.4, 0.5}, {4, 1, 1}))}));
-  const double force = 1e3, pull = 3e3;
-  s.conditions.fixes = {fixed(cdem::Selection::side("x-"))};
-  s.conditions.forces = {{cdem::Selection::side("x+"), {pull, 0, -force}, {}}};
-  s.relax(1e-8);
-  const std::vector<cdem::FacetTraction> facets = facet_tractions(s.model, s.state);
-  REQUIRE(facets.size() == 3);
-  for (const cdem::FacetTraction& facet : facets) {
-    const double x = facet.centroid.x(), bent = force * (4 - x) / (0.4 * 0.5 * 0.5 / 6);
-    CHECK(facet.mean.x() == Approx(pull / 0.2).epsilon(1e-3));
-    CHECK(facet.mean.z() == Approx(-force / 0.2).epsilon(1e-3));
-    CHECK(facet.at({x, 0.2, 0.5}).x() == Approx(pull / 0.2 + bent).epsilon(1e-3));
-    CHECK(facet.at({x, 0.2, 0}).x() == Approx(pull / 0.2 - bent).epsilon(1e-3));
-    CHECK(facet.at({x, 0, 0.25}).x() == Approx(pull / 0.2).epsilon(0.01));
-    CHECK(facet.utilisation == Approx((pull / 0.2 + bent) / 2e6).epsilon(0.01));
-    CHECK(facet.worst.z() == Approx(0.5).margin(1e-3));
-    CHECK(facet.least_extent == Approx(0.4));
-    CHECK(facet.area == Approx(0.2).epsilon(1e-3));
-    CHECK(facet.is_bent());
-  }
-}
-
-// Held ends give so few tetrahedra stresses that differ from block to block by more than T. They are no bending.
-TEST_CASE("joined blocks: no facet counts as bent in a prism between rough platens", "[joined][facets]") {
-  System s(build({joined(cells(GENERATE(20, 40)))}));
-  s.conditions.fixes = {fixed(cdem::Selection::side("z-")), fixed(cdem::Selection::side("z+"), "xy")};
-  s.conditions.tractions = {traction(cdem::Selection::side("z+"), {0, 0, -35e6})};
-  s.relax(1e-4);
-  for (const cdem::FacetTraction& facet : facet_tractions(s.model, s.state))
-    CHECK_FALSE((facet.utilisation > 1.25 && facet.is_bent()));
-}
-
 namespace {
 
 // Blocks in a row along x, held at x-. `part`: of the end load at which beam theory has the tensile strength at the worst corner
@@ -376,27 +322,6 @@ TEST_CASE("joined blocks: a bent joint stays freed as a whole while its blocks a
   beam.s.run(options);
   CHECK(freed() == before);
   CHECK(energy(beam.s.model, beam.s.state).kinetic < 1e-4 * energy(beam.s.model, beam.s.state).elastic);
-}
-
-TEST_CASE("joined blocks: no warning tells of a bent joint that cracks", "[joined][facets]") {
-  struct Listener : cdem::Observer {
-    void warning(const std::string& line) override { lines.push_back(line); }
-    std::vector<std::string> lines;
-  };
-  for (const double part : {0.9, 1.5}) {
-    const auto listener = std::make_shared<Listener>();
-    cdem::ModelSpec spec;
-    spec.bodies = {Cantilever::spec_of({1, 0.25, 0.25}, 2, 30e9, cdem::Softening::none)};
-    cdem::Simulation s(spec, 1, listener);
-    s.fix(fixed(cdem::Selection::side("x-")));
-    s.force({cdem::Selection::side("x+"), {0, 0, -part * 2e6 * std::pow(0.25, 3) / 6 / 0.5}, {}});
-    cdem::RelaxOptions options;
-    options.residual = 1e-4;
-    options.max_steps = 3000;
-    s.relax(options);
-    for (const std::string& line : listener->lines)
-      CHECK_THAT(line, !Catch::Contains("times its strength"));
-  }
 }
 
 TEST_CASE("joined blocks: what cannot be one mesh is refused with the reason", "[joined][input]") {
