@@ -84,13 +84,26 @@ public:
       throw geom::InputError(field, value, "given once", "two bodies have one law between them");
   }
 
-  // The parts of a body meet with the friction of its joint: blocks that come loose, and what a mesh is made of. A mesh
-  // without bonds has no joint: its parts need a law in contacts.
+  // What bonds held together meets with the friction of the joint that held it, where contacts names no law of the body with itself:
+  // blocks that come loose, and what a mesh breaks into. A mesh without bonds has no joint: its parts need a law in contacts.
   void add_within_bodies() {
-    for (int b = 0; b < count(); ++b)
-      if (!is_small(b) && (parts_[b] > 1 || frame_.bodies[b].bonding.is_cohesive()) &&
-          (are_blocks(b, b) || !frame_.bodies[b].bonding.none()))
-        add_to(frame_.surface.joint, b, b, contact_of(b, b, spec_.bodies[b].joint));
+    for (int b = 0; b < count(); ++b) {
+      if (!has_law_of_its_own(b) || frame_.surface.joint.count({b, b}) > 0)
+        continue;
+      const Joint law = contact_of(b, b, spec_.bodies[b].joint);
+      if (are_blocks(b, b)) {
+        add_to(frame_.surface.joint, b, b, law);
+      } else {
+        frame_.surface.within[b] = static_cast<int>(frame_.joints.size());
+        frame_.joints.push_back(law);
+      }
+    }
+  }
+
+  // Parts of a mesh that nothing has ever held together, as the units of a layer, have that law where there is no default.
+  void add_between_parts() {
+    for (const auto& [b, law] : frame_.surface.within)
+      frame_.surface.joint.emplace(std::pair(b, b), law);
   }
 
   // Blocks held by a joint set leave the contact that this set's law has.
@@ -118,6 +131,10 @@ public:
 
 private:
   int count() const { return static_cast<int>(frame_.bodies.size()); }
+  bool has_law_of_its_own(int b) const {
+    const Bonding& bonding = frame_.bodies[b].bonding;
+    return !is_small(b) && (parts_[b] > 1 || bonding.is_cohesive()) && (are_blocks(b, b) || !bonding.none());
+  }
   bool is_small(int body) const { return frame_.bodies[body].element == Element::small_strain; }
   bool are_blocks(int a, int b) const {
     return spec_.bodies[a].meshes.empty() && spec_.bodies[b].meshes.empty();
@@ -323,6 +340,7 @@ Model first_model(const ModelSpec& spec) {
     const int index = static_cast<int>(frame.bodies.size());
     frame.bodies.push_back(
         {body.name, body.material, body.joint, body.bonding, body.element, body.zone_size, body.region_laws});
+    frame.bodies.back().region_laws.sort();
     frame.bodies.back().plasticity = body.plasticity;
     const std::size_t before = meshes.size();
     for (const geom::TetMesh& mesh : body.meshes)
@@ -345,6 +363,7 @@ Model first_model(const ModelSpec& spec) {
   laws.add_left_by_sets();
   if (spec.default_contact)
     laws.add_default(*spec.default_contact);
+  laws.add_between_parts();
   std::map<int, const JointAt*> varying; // by joint
   for (int b = 0; b < static_cast<int>(frame.bodies.size()); ++b) {
     if (spec.bodies[b].joint_at)

@@ -46,7 +46,7 @@ void archive(A& a, JointLaw& x) {
 
 CDEM_ARCHIVE(Joint, bonded, glued, cohesion, friction_angle, tensile_strength, softening, g1, g2,
              thickness_ratio, thickness, kn, ks, stiffness_damping, restitution, scatter, rate, law, curve)
-CDEM_ARCHIVE(RegionLaws, joints, regions)
+CDEM_ARCHIVE(RegionLaws, joints, regions, by_regions)
 CDEM_ARCHIVE(Bonding, kind, everywhere, between_regions, regions, stiffness_ratio, shear_ratio)
 CDEM_ARCHIVE(Body, name, material, joint, bonding, element, zone_size, region_laws, set_joint, units,
              glued_joint, plasticity)
@@ -83,7 +83,8 @@ void archive(A& a, MeshData& x) {
 CDEM_ARCHIVE(ContactTriangle, nodes, block, tet, face, mate, area, height, compliance)
 CDEM_ARCHIVE(ContactEdge, nodes, triangles, corner)
 CDEM_ARCHIVE(BlockPairLaw, blocks, joint)
-CDEM_ARCHIVE(ContactSurface, triangles, edges, block_begin, usual_height, original, joint, left_by, pairs)
+CDEM_ARCHIVE(ContactSurface, triangles, edges, block_begin, usual_height, original, joint, within, left_by,
+             pairs)
 CDEM_ARCHIVE(Model, bodies, joints, blocks, pair_joint, node_position, node_mass, gravitational_mass, tets,
              tet_block, batches, interfaces, frames, points, point_position, point_apart, bond_triangles,
              bond_begin, spring_ends, outer_faces, mesh, surface, rigid, chunks, point_chunks, box, built_box,

@@ -153,6 +153,8 @@ void require_whole(const Model& model) {
     require(body.element <= Element::rigid, "bodies.element", static_cast<int>(body.element));
     require(body.bonding.kind <= BondKind::cohesive, "bodies.bonding", static_cast<int>(body.bonding.kind));
     require_length("bodies.region_laws", body.region_laws.regions.size(), body.region_laws.joints.size());
+    require_length("bodies.region_laws", body.region_laws.by_regions.size(), body.region_laws.joints.size());
+    all_below("bodies.region_laws", body.region_laws.by_regions, body.region_laws.joints.size());
   }
   for (const Body& body : model.bodies) {
     below("bodies.glued_joint", body.glued_joint, model.joints.size(), -1);

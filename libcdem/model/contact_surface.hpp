@@ -49,6 +49,8 @@ struct ContactSurface {
   std::vector<int> original;              // (n_nodes) one number for all copies of a node
   // Bodies (smaller first) -> index into Model::joints, the law of their contact.
   std::map<std::pair<int, int>, int> joint;
+  // Body -> the law of what one of its meshes breaks into, where that is not the one of its parts (index into Model::joints).
+  std::map<int, int> within;
   // Law of an interface -> the law of the contact that it leaves, where that is not the one of its bodies (indices into
   // Model::joints).
   std::map<int, int> left_by;

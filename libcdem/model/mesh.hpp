@@ -98,9 +98,8 @@ struct MeshData {
   std::vector<int> tet_slot; // (n mesh tets) batch * lanes + lane
   std::vector<int> others;   // nodes of the model
   std::vector<int> original; // (n mesh nodes) one number for all copies of a node
-  // Empty without cohesive bodies.
-  std::vector<int> region; // (n mesh tets) of the mesh they come from
-  std::vector<char> freed; // (n mesh nodes) 1: faces around it may have parted
+  std::vector<int> region;   // (n mesh tets) of the mesh they come from
+  std::vector<char> freed; // (n mesh nodes) 1: faces around it may have parted; empty without cohesive bodies
   // Into the body's PlasticLaws, batch * lanes + lane; -1: elastic. Empty without plastic bodies.
   std::vector<std::int8_t> plastic_law;
   // The partial forces that add up to the force of a node that several chunks use, in order: into `shares`.

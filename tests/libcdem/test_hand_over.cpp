@@ -3,6 +3,7 @@
 #include "tests/libcdem/two_halves.hpp"
 
 #include "libcdem/bond/leaving_faces.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/state/places.hpp"
 
@@ -88,6 +89,21 @@ constexpr double way = 0.24; // m, that the upper part slides: its rear edge pas
 
 Vec3 pull_at(double angle) {
   return pull * Vec3(std::sin(angle), 0, -std::cos(angle));
+}
+
+// The same with a joint of its own between the two, in a body of a rougher one and with a rougher law in contacts.
+System leaning_on_its_joint(double jitter) {
+  cdem::BodySpec unit = meshed("unit", placed(two_parts(jitter), straight, Vec3::Zero()), between_halves(),
+                               soft_rock(1e9), halves_joint(false));
+  unit.joint.friction_angle = 45 * degree;
+  unit.region_laws.regions.push_back({0, 1});
+  unit.region_laws.joints.push_back(unit.joint);
+  unit.region_laws.joints.back().friction_angle = friction_angle;
+  System s(build({unit}, {{"unit", "unit", friction(35)}}));
+  s.hold(cdem::Selection::where([](const Vec3& x) { return x.z() < 1e-6; }, "the foot"), "xyz");
+  s.conditions.gravity = gravity(pull_at(steep));
+  REQUIRE(s.relax(1e-6).converged);
+  return s;
 }
 
 // m/s2, of a block on the slope.
@@ -229,6 +245,42 @@ TEST_CASE("hand-over: a part that slides off a broken joint meets nothing behind
   CHECK(found.acceleration == Approx(slides_at()).epsilon(0.09)); // friction within 2.5 %
   CHECK(found.deepest < 5e-3 * edge);
   CHECK(found.across < 0.02 * rock().density * upper.prod() * pull);
+}
+
+TEST_CASE("hand-over: a joint with a friction of its own keeps it", "[contact][hand_over][regions]") {
+  System s = leaning_on_its_joint(GENERATE(0.0, 0.15));
+  CHECK(slide(s, straight).acceleration == Approx(slides_at()).epsilon(0.09));
+}
+
+TEST_CASE("hand-over: parts of a mesh meet by the default of contacts, what one breaks into by its joint",
+          "[contact][hand_over][input]") {
+  geom::TetMesh two = geom::box_mesh({1, 1, 1}, {1, 1, 1});
+  const geom::TetMesh other = placed(two, straight, Vec3(0, 0, 1.1));
+  const auto first = static_cast<int>(two.nodes.size());
+  two.nodes.insert(two.nodes.end(), other.nodes.begin(), other.nodes.end());
+  for (geom::Tet tet : other.tets) {
+    for (int& node : tet)
+      node += first;
+    two.tets.push_back(tet);
+    two.region.push_back(0);
+  }
+  two.region.assign(two.tets.size(), 0);
+  cdem::Bonding everywhere;
+  everywhere.everywhere = true;
+  everywhere.kind = GENERATE(cdem::BondKind::springs, cdem::BondKind::cohesive);
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("units", two, everywhere)};
+  spec.bodies[0].joint.friction_angle = 40 * degree;
+  spec.default_contact = friction(15);
+  const auto angle = [&](int block) { // degrees, between the first block and this one
+    cdem::Simulation s(spec, 1, nullptr);
+    return cdem::contact_joint(s.model(), 0, block)->friction_angle / degree;
+  };
+  CHECK(angle(1) == Approx(15));
+  CHECK(angle(0) == Approx(40));
+  spec.pairs = {{"units", "units", friction(25)}};
+  CHECK(angle(1) == Approx(25));
+  CHECK(angle(0) == Approx(25));
 }
 
 TEST_CASE("hand-over: a part slides off with the same bits for every number of threads",

@@ -7,6 +7,10 @@ void check_surface(const Model& model) {
   const ContactSurface& surface = model.surface;
   const std::size_t triangles = surface.triangles.size(), nodes = model.node_position.size();
   check_pairs("surface.joint", surface.joint, model);
+  for (const auto& [body, joint] : surface.within) {
+    below("surface.within", body, model.bodies.size());
+    below("surface.within", joint, model.joints.size());
+  }
   for (const auto& [joint, left] : surface.left_by) {
     below("surface.left_by", joint, model.joints.size());
     below("surface.left_by", left, model.joints.size());

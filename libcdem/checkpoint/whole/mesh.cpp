@@ -83,9 +83,13 @@ void check_plastic(const Model& model) {
           "mesh.plastic_law", tets);
 }
 
-// A cohesive body has a region for each tet and a mark for each node.
+// A mesh with cohesive faces or laws of regions has a region for each tet, the first a mark for each node.
 void check_cohesive(const Model& model) {
   const MeshData& mesh = model.mesh;
+  for (const Block& block : model.blocks)
+    if (block.meshed && !model.bodies[block.body].region_laws.empty())
+      require(block.tet_end - mesh.first_tet <= count(mesh.region.size()), "mesh.region",
+              count(mesh.region.size()));
   for (const Block& block : model.blocks)
     if (block.meshed && model.bodies[block.body].bonding.is_cohesive()) {
       require(block.tet_end - mesh.first_tet <= count(mesh.region.size()), "mesh.region",

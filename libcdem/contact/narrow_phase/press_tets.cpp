@@ -197,9 +197,12 @@ private:
     if (block_ != a.block) {
       block_ = a.block;
       joint_ = contact_joint(model_, block_, block_);
-      tan_friction_ = std::min(geom::portable::tan(joint_->friction_angle), work_.options.most_friction);
+      has_regions_ = !model_.bodies[model_.blocks[block_].body].region_laws.empty();
+      tan_friction_ = geom::portable::tan(joint_->friction_angle);
     }
-    return tet_pair_law(model_, *joint_, tan_friction_, block_, a.size, b.size);
+    const double tan_friction = has_regions_ ? friction_within(model_, *joint_, a.tet, b.tet) : tan_friction_;
+    return tet_pair_law(model_, *joint_, std::min(tan_friction, work_.options.most_friction), block_, a.size,
+                        b.size);
   }
 
   void finish_pair(std::size_t i) {
@@ -328,6 +331,7 @@ private:
   std::vector<double> phi0_, deepest_, allowed_; // m
   int block_ = -1;                               // whose law is known
   const Joint* joint_ = nullptr;
+  bool has_regions_ = false; // some of them have a law of their own
   double tan_friction_ = 0;
 };
 

@@ -146,7 +146,7 @@ ContactLaw law_of(const Model& model, const Contact& c) {
   if (c.kind == Contact::tets) {
     const int a = static_cast<int>(c.source), block = model.tet_block[a];
     const Joint& joint = *contact_joint(model, block, block);
-    ContactLaw law = tet_pair_law(model, joint, geom::portable::tan(joint.friction_angle), block,
+    ContactLaw law = tet_pair_law(model, joint, friction_within(model, joint, a, c.target), block,
                                   tet_size(model, a), tet_size(model, c.target))
                          .law;
     law.kn = c.stiffness;

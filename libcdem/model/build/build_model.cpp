@@ -407,6 +407,7 @@ Model build_model(const Model& frame, std::vector<BlockSeed> seeds, const Interf
   model.next_id = frame.next_id;
   model.built_box = frame.built_box;
   model.surface.joint = frame.surface.joint;
+  model.surface.within = frame.surface.within;
   model.surface.left_by = frame.surface.left_by;
 
   std::vector<geom::Polyhedron> shapes;

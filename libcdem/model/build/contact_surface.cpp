@@ -193,9 +193,22 @@ const Joint* contact_joint(const Model& model, int block_a, int block_b) {
     if (own != pairs.end() && own->blocks == blocks)
       return &model.joints[own->joint];
   }
-  const auto found =
-      model.surface.joint.find(std::minmax(model.blocks[block_a].body, model.blocks[block_b].body));
+  const int body = model.blocks[block_a].body;
+  if (block_a == block_b)
+    if (const auto within = model.surface.within.find(body); within != model.surface.within.end())
+      return &model.joints[within->second];
+  const auto found = model.surface.joint.find(std::minmax(body, model.blocks[block_b].body));
   return found == model.surface.joint.end() ? nullptr : &model.joints[found->second];
+}
+
+double friction_within(const Model& model, const Joint& law, int tet_a, int tet_b) {
+  const Body& body = model.bodies[model.blocks[model.tet_block[tet_a]].body];
+  if (!body.region_laws.empty()) {
+    const auto region = [&](int tet) { return model.mesh.region[tet - model.mesh.first_tet]; };
+    if (const int own = body.region_laws.between(region(tet_a), region(tet_b)); own >= 0)
+      return friction_left(body.region_laws.joints[own]);
+  }
+  return geom::portable::tan(law.friction_angle);
 }
 
 } // namespace cdem

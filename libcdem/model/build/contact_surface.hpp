@@ -27,7 +27,11 @@ struct ContactStiffness {
 };
 ContactStiffness contact_stiffness(const Joint&, double compliance);
 
-// The law between two blocks; null: none is given.
+// The law between two blocks, or between what one has broken into; null: none is given.
 const Joint* contact_joint(const Model&, int block_a, int block_b);
+
+// tan of the friction angle between two tetrahedra of one mesh whose law this is: where a joint of its own was between their
+// regions, the friction that is left of it.
+double friction_within(const Model&, const Joint&, int tet_a, int tet_b);
 
 } // namespace cdem

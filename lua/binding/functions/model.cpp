@@ -362,15 +362,20 @@ void bind_model(Module& m) {
                "everywhere keeps about E / (1 + 1/beta). A cohesive body has 1 by default, the penalty of "
                "freed faces, and keeps all of E"),
       number("shear_ratio").above(0).doc("of a mesh, Ks / Kn; 1 by default")};
-  m.add("model", "A model: bodies of blocks, and what holds touching bodies to each other.",
-        {list("bodies", record_type(body)).required(),
-         list("contacts", pair, 0)
-             .beside({object("default", "Joint")
-                          .doc("of every two bodies that are not named; of meshes it is cdem.coulomb, and "
-                               "the law between the units of a body and its fragments too")})
-             .doc("{\"body a\", \"body b\", joint} for every two bodies that touch; default = joint for all "
-                  "others")},
-        make_model, "cdem.Model");
+  m.add(
+      "model", "A model: bodies of blocks, and what holds touching bodies to each other.",
+      {list("bodies", record_type(body)).required(),
+       list("contacts", pair, 0)
+           .beside(
+               {object("default", "Joint")
+                    .doc(
+                        "of every two bodies that are not named, and of the units of a body that has no law "
+                        "with "
+                        "itself; of meshes it is cdem.coulomb. What a unit breaks into keeps the friction of "
+                        "the joint that held it")})
+           .doc("{\"body a\", \"body b\", joint} for every two bodies that touch; default = joint for all "
+                "others")},
+      make_model, "cdem.Model");
   bind_model_class(m);
 }
 
