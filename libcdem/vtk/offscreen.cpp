@@ -157,21 +157,20 @@ private:
   std::vector<vtkRenderer*> layers_;
 };
 
-} // namespace
-
-void check_picture_size(const std::array<int, 2>& size) {
-  for (const int side : size)
-    if (side < least_picture_side || side > most_picture_side)
-      throw geom::InputError("size", "{" + std::to_string(size[0]) + ", " + std::to_string(size[1]) + "}",
-                             "between " + std::to_string(least_picture_side) + " and " +
-                                 std::to_string(most_picture_side) + " pixels");
+// An empty picture of a few pixels takes the place of the large one; the context and the shaders stay.
+void give_buffers_back() {
+  constexpr int few = 16;
+  const Layers nothing({});
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window().SetSize(few, few);
+  window().Render();
+  window().GetPixelData(0, 0, few - 1, few - 1, 0, pixels.Get(), 0);
+  forget_kept_pixels();
 }
 
-std::array<double, 4> viewport_of(const Rect& frame, const std::array<int, 2>& size) {
-  return {frame.left / size[0], frame.bottom / size[1], frame.right() / size[0], frame.top() / size[1]};
-}
+bool buffers_are_kept = false; // of a picture, for the next one
 
-std::string png_of(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers) {
+std::string drawn(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers) {
   constexpr int n = supersampling;
   const int width = size[0], height = size[1];
   require_room_for_picture(size);
@@ -205,6 +204,32 @@ std::string png_of(const std::array<int, 2>& size, const std::vector<vtkRenderer
   vtkUnsignedCharArray* bytes = writer->GetResult();
   return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
           static_cast<std::size_t>(bytes->GetNumberOfValues())};
+}
+
+} // namespace
+
+void check_picture_size(const std::array<int, 2>& size) {
+  for (const int side : size)
+    if (side < least_picture_side || side > most_picture_side)
+      throw geom::InputError("size", "{" + std::to_string(size[0]) + ", " + std::to_string(size[1]) + "}",
+                             "between " + std::to_string(least_picture_side) + " and " +
+                                 std::to_string(most_picture_side) + " pixels");
+}
+
+std::array<double, 4> viewport_of(const Rect& frame, const std::array<int, 2>& size) {
+  return {frame.left / size[0], frame.bottom / size[1], frame.right() / size[0], frame.top() / size[1]};
+}
+
+std::string png_of(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers) {
+  buffers_are_kept = true;
+  return drawn(size, layers);
+}
+
+std::string flat_png_of(const std::array<int, 2>& size, const std::vector<vtkRenderer*>& layers) {
+  std::string png = drawn(size, layers);
+  if (!buffers_are_kept)
+    give_buffers_back();
+  return png;
 }
 
 } // namespace cdem

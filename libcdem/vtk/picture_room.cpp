@@ -43,16 +43,23 @@ void require(int resource, const char* option, std::uint64_t has, std::uint64_t 
                            " MB; allow more, or draw fewer pixels");
 }
 
+bool is_first = true;
+std::uint64_t kept = 0; // pixels: what was taken for them stays
+
 } // namespace
 
 void require_room_for_picture(const std::array<int, 2>& pixels) {
-  static std::uint64_t largest = 0; // pixels: what was taken for them stays
   const std::uint64_t wanted = static_cast<std::uint64_t>(pixels[0]) * static_cast<std::uint64_t>(pixels[1]);
-  const std::uint64_t more = per_pixel * (wanted - std::min(wanted, largest));
+  const std::uint64_t more = per_pixel * (wanted - std::min(wanted, kept));
   const Held now = held();
-  require(RLIMIT_AS, "ulimit -v", now.address_space, more + (largest == 0 ? first_address_space : 0));
-  require(RLIMIT_DATA, "--memory", now.data, more + (largest == 0 ? first_data : 0));
-  largest = std::max(largest, wanted);
+  require(RLIMIT_AS, "ulimit -v", now.address_space, more + (is_first ? first_address_space : 0));
+  require(RLIMIT_DATA, "--memory", now.data, more + (is_first ? first_data : 0));
+  is_first = false;
+  kept = std::max(kept, wanted);
+}
+
+void forget_kept_pixels() {
+  kept = 0;
 }
 
 } // namespace cdem

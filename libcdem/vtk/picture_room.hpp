@@ -13,5 +13,7 @@ public:
 
 // Throws NoRoomForPicture, with the limit and what would do. pixels: width and height.
 void require_room_for_picture(const std::array<int, 2>& pixels);
+// What was taken for pixels has been given back.
+void forget_kept_pixels();
 
 } // namespace cdem

@@ -33,9 +33,10 @@ void check_drawing(const std::array<int, 2>& size, double dpi, const std::string
 
 std::string png_of_drawing(const std::array<int, 2>& size, double dpi, std::vector<vtkRenderer*> layers,
                            Canvas& canvas) {
+  const bool flat = layers.empty();
   for (vtkRenderer* layer : canvas.renderers(size))
     layers.push_back(layer);
-  return with_resolution(png_of(size, layers), dpi);
+  return with_resolution(flat ? flat_png_of(size, layers) : png_of(size, layers), dpi);
 }
 
 void save_drawing(const std::array<int, 2>& size, double dpi, const std::vector<vtkRenderer*>& below,

@@ -24,7 +24,31 @@ std::array<int, 3> line_colour(std::size_t i) {
           static_cast<int>(std::lround(255 * c[2]))};
 }
 
+// Bytes of this process that no file holds.
+double anonymous_memory() {
+  std::ifstream status("/proc/self/status");
+  double kilobytes = 0;
+  for (std::string word; status >> word;)
+    if (word == "RssAnon:" && status >> kilobytes)
+      break;
+  return 1024 * kilobytes;
+}
+
 } // namespace
+
+TEST_CASE("a chart gives its frame buffers back, and the next one has the same bytes") {
+  const TemporaryFolder folder;
+  ChartOptions o;
+  o.size = {1600, 1200};
+  const auto draw = [&] {
+    chart({{"", {0, 1, 2}, {0, 1, 0.5}}}, o, folder / "c.png");
+    return read_png(folder / "c.png").bytes;
+  };
+  const double before = anonymous_memory();
+  const auto first = draw();
+  CHECK(anonymous_memory() - before < 150e6); // the frame buffers alone take 480 MB
+  CHECK(draw() == first);
+}
 
 TEST_CASE("a chart has the asked size and shows every series on both axes") {
   const TemporaryFolder folder;
