@@ -55,16 +55,18 @@ std::vector<int> numbers(const char* option, const std::string& text) {
 
 constexpr const char* help =
     R"(Usage: cdem bench [--sizes 100,10000,100000] [--tets 10000,105000] [--bodies 1000,10000]
-                  [--body-divisions 1] [--settle 1000] [--shatter 6000] [--discs 6000] [--prisms 5000]
-                  [--threads 1,2] [--seconds 1]
+                  [--body-divisions 1] [--heaps 100,300,1000] [--settle 1000] [--shatter 6000]
+                  [--discs 6000] [--prisms 5000] [--threads 1,2] [--seconds 1]
        cdem bench --ranks 2 [--tets 105000] [--settle 200] [--threads 1] [--seconds 1]
 
 Steps plates of bonded blocks, meshed cubes, continuous and with every face bonded, lattices of cubes that touch,
-and discs and prisms that crack, and prints rates beside the bare element kernels and a copy of memory.
+heaps of loose blocks, and discs and prisms that crack, and prints rates beside the bare element kernels and a copy
+of memory.
   --sizes    blocks in the plates; 0: none
   --tets     tetrahedra in the cubes, e.g. 10000,105000,1000000; 0: none
   --bodies   cubes that touch, e.g. 1000,10000,100000; 0: none
   --body-divisions  cells along an edge of each of them, of six tetrahedra
+  --heaps    loose rigid blocks; prints by which power of their number a step grows; 0: none
   --settle   armour units laid on a slope that come to rest, e.g. 1000, with the most threads given; none by
              default
   --shatter  tetrahedra in a cube that hits a floor and breaks everywhere, e.g. 6000; none by default
@@ -119,12 +121,13 @@ int run(int argc, char** argv) {
     }
     if (i + 1 == argc ||
         (option != "--sizes" && option != "--tets" && option != "--bodies" && option != "--body-divisions" &&
-         option != "--settle" && option != "--shatter" && option != "--discs" && option != "--prisms" &&
-         option != "--ranks" && option != "--threads" && option != "--seconds")) {
-      std::fprintf(stderr,
-                   "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --settle, "
-                   "--shatter, --discs, --prisms, --ranks, --threads or --seconds with a value\n%s",
-                   option.c_str(), help);
+         option != "--heaps" && option != "--settle" && option != "--shatter" && option != "--discs" &&
+         option != "--prisms" && option != "--ranks" && option != "--threads" && option != "--seconds")) {
+      std::fprintf(
+          stderr,
+          "cdem bench: error: %s: must be --sizes, --tets, --bodies, --body-divisions, --heaps, --settle, "
+          "--shatter, --discs, --prisms, --ranks, --threads or --seconds with a value\n%s",
+          option.c_str(), help);
       return 2;
     }
     const std::string value = argv[++i];
@@ -136,6 +139,8 @@ int run(int argc, char** argv) {
       settings.bodies = numbers("--bodies", value);
     else if (option == "--body-divisions")
       settings.body_divisions = numbers("--body-divisions", value)[0];
+    else if (option == "--heaps")
+      settings.heaps = numbers("--heaps", value);
     else if (option == "--settle")
       settings.units = numbers("--settle", value);
     else if (option == "--shatter")
@@ -172,6 +177,8 @@ int run(int argc, char** argv) {
     bench::meshes(settings);
   if (!settings.bodies.empty())
     bench::contacts(settings);
+  if (!settings.heaps.empty())
+    bench::heaps(settings);
   if (!settings.units.empty())
     bench::piles(settings);
   if (!settings.shatter.empty())

@@ -14,6 +14,7 @@ struct Settings {
   std::vector<int> tets{10000, 105000};       // of meshed cubes
   std::vector<int> bodies{1000, 10000};       // that touch
   int body_divisions = 1;                     // cells along an edge of one of them
+  std::vector<int> heaps{100, 300, 1000};     // loose rigid blocks
   std::vector<int> units{};                   // that fall and settle
   std::vector<int> shatter{};                 // tetrahedra of cubes that shatter
   std::vector<int> discs{6000};               // tetrahedra of discs that split
@@ -31,7 +32,8 @@ cdem::Model meshed_cube(int tets, bool bonded); // of a unit's size, cells jitte
 void among_ranks(const Settings&);              // meshed cubes by several processes; all of them call it
 
 void contacts(const Settings&); // cubes that touch: search and full step
-void piles(const Settings&);    // armour units that settle on a slope
+void heaps(const Settings&); // rigid blocks that part and strike each other: cost of a step over their number
+void piles(const Settings&); // armour units that settle on a slope
 void shatter(const Settings&);  // a bonded cube that breaks while it runs
 void cracking(const Settings&); // discs and prisms that crack between plates
 

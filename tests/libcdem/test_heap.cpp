@@ -137,6 +137,24 @@ TEST_CASE("no place of a body moves further relative to another than their poses
   }
 }
 
+TEST_CASE("a block turns by no more than its nodes move over the radius of a ball within it", "[contact]") {
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 half = any(1).cwiseAbs() + Vec3(0.01, 0.01, 0.01); // of a box
+    Motion box;
+    box.move(any(3), any(2));
+    const Motion before = box;
+    box.move(any(std::pow(10., -(trial % 7))), any(std::pow(10., -(trial % 5))));
+    double path = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 offset =
+          half.cwiseProduct(Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+      path = std::max(path, (box.at(offset) - before.at(offset)).norm());
+    }
+    const double angle = box.rotation().angularDistance(before.rotation());
+    CHECK(2 * std::sin(angle / 2) <= path / half.minCoeff() * (1 + 1e-9) + 1e-12);
+  }
+}
+
 TEST_CASE("two bodies that move together are at rest for each other", "[contact]") {
   Motion a, b;
   a.move({1, 2, 3}, {0.1, 0.2, 0.3});

@@ -86,6 +86,17 @@ double radius_of(const Model& model, const State& state, int b) {
   return std::sqrt(radius2) * (1 + rounding);
 }
 
+double inner_radius_of(const Model& model, const State& state, int b) {
+  const ContactSurface& s = model.surface;
+  const geom::Vec3 centre = vec(state.rigid[model.blocks[b].rigid].centroid);
+  double radius = std::numeric_limits<double>::infinity();
+  for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t) {
+    const Corners x = corners_of(model, state, s.triangles[t].nodes);
+    radius = std::min(radius, (x[0] - centre).dot(unit_normal(x)));
+  }
+  return std::max(0.0, radius) * (1 - rounding);
+}
+
 // m in a step, of b's fastest place seen from a.
 double relative_pace(const Model& model, const State& state, const ContactWork& work, int a, int b,
                      const std::vector<double>& pace) {
@@ -128,6 +139,17 @@ double used_of_skin(const RigidPairs& pairs, const RigidPair& pair) {
       motion_between(seen_from(pairs.pose[pair.a], pairs.pose[pair.b]), pair.at_search, pair.radius_b));
 }
 
+// Whether a search may pass a pair over: it has used little of its skin. A search that broken bonds ask for passes over more of
+// them, since it comes again soon: those within their skin for twice as many steps as since the last search, at their pace.
+bool may_wait(const ContactWork& work, const RigidPair& pair, std::int64_t since_last_search) {
+  const RigidPairs& pairs = work.rigid_pairs;
+  const double used = used_of_skin(pairs, pair);
+  if (used <= (1 - searched_with_others) * pair.skin)
+    return true;
+  const auto age = static_cast<double>(std::max<std::int64_t>(1, pairs.steps - pair.at));
+  return !work.search.pairs_due && used * (1 + 2 * static_cast<double>(since_last_search) / age) < pair.skin;
+}
+
 } // namespace
 
 void find_pairwise(const Model& model, const State& state, const ContactFragments& fragments,
@@ -138,6 +160,7 @@ void find_pairwise(const Model& model, const State& state, const ContactFragment
   if (first) {
     pairs.pose.resize(model.blocks.size());
     pairs.radius.resize(model.blocks.size(), 0.0);
+    pairs.inner_radius.resize(model.blocks.size(), 0.0);
     pairs.planes.resize(model.blocks.size());
   }
   pairs.pairwise.assign(model.blocks.size(), 0);
@@ -158,6 +181,7 @@ void find_pairwise(const Model& model, const State& state, const ContactFragment
     pairs.pairwise[b] = static_cast<char>(end - begin == 1); // else its bonds hold others
     if (pairs.radius[b] == 0) {
       pairs.radius[b] = radius_of(model, state, b);
+      pairs.inner_radius[b] = inner_radius_of(model, state, b);
       pairs.planes[b] = planes_of(model, state, b);
     }
   }
@@ -186,6 +210,7 @@ RigidPair pair_of(const SurfaceSizes& sizes, const RigidPairs& pairs, int a, int
   pair.a = a;
   pair.b = b;
   pair.radius_b = pairs.radius[b];
+  pair.turns = 1 / std::min(pairs.inner_radius[a], pairs.inner_radius[b]);
   pair.skin = skin;
   pair.at = pairs.steps;
   pair.at_search = pair.at_look = seen_from(pairs.pose[a], pairs.pose[b]);
@@ -230,12 +255,14 @@ PairsSearched pairs_to_search(const Model& model, const State& state, const Cont
                               const Pairs* near) {
   PairsSearched found;
   found.now.assign(work.rigid_pairs.all.size(), -1);
-  std::vector<char> anew;
+  std::int64_t last_search = 0; // in which one of them was searched
+  for (const RigidPair& pair : work.rigid_pairs.all)
+    last_search = std::max(last_search, pair.at);
   const auto add = [&](int a, int b) {
     const int known = number_of(work.rigid_pairs.all, a, b);
     const RigidPair* const old = known < 0 ? nullptr : &work.rigid_pairs.all[known];
     if (old && !work.search.all_due && !work.options.looks_at_all &&
-        used_of_skin(work.rigid_pairs, *old) <= (1 - searched_with_others) * old->skin) {
+        may_wait(work, *old, work.rigid_pairs.steps - last_search)) {
       found.now[known] = static_cast<int>(found.pairs.size());
       found.kept = true;
       found.pairs.push_back(*old);

@@ -2,7 +2,9 @@
 //
 // Seen from block a with the pose (c_a, R_a) the pose of block b is p = R_a^T (c_b - c_a), Q = R_a^T R_b. Between two
 // moments no place of b moves further relative to a than |p' - p| + |Q' - Q| r_b, with r_b the radius of b around its
-// centroid. Nor do the two come nearer to each other than by the paths of their fastest nodes.
+// centroid. Nor do the two come nearer to each other than by the paths of their fastest nodes. Either turns b relative to a
+// by no more than itself over the smaller of the two inner radii: a block holds a ball of that radius, and some node of it moves
+// as far as the ball's surface does.
 #pragma once
 
 #include "libgeom/core/types.hpp"
@@ -22,6 +24,7 @@ struct BodyPose {
 struct RigidPair {
   int a = 0, b = 0;                            // blocks; b has the smaller radius
   double radius_b = 0;                         // m, of the nodes of b around its centroid
+  double turns = 0;                            // rad/m, at most, that b turns seen from a, over what it moves
   double skin = 0;                             // m, relative motion that its candidates allow for
   std::int64_t at = 0;                         // steps of contact when it was searched
   int doublings = 0;                           // how often its thinnest skin was doubled
@@ -44,10 +47,10 @@ struct RigidPair {
 
 // Blocks that are rigid, convex and bonded to no other, and their pairs.
 struct RigidPairs {
-  // Per block, written by find_pairwise: 1 if it is such a block; of those, the radius, and triangles in the planes of their
+  // Per block, written by find_pairwise: 1 if it is such a block; of those, the radii, and triangles in the planes of their
   // faces, by number.
   std::vector<char> pairwise;
-  std::vector<double> radius; // m
+  std::vector<double> radius, inner_radius; // m, around the centroid: all nodes are within, no face is
   std::vector<std::vector<int>> planes;
   // Per block, how it stands, and the path of its fastest node, m, never less than it was.
   std::vector<BodyPose> pose;

@@ -217,11 +217,24 @@ double common_length(const Model& model, const ContactEdge& e, double length_e, 
 
 } // namespace
 
+geom::Vec3 way_between_fans(const std::array<geom::Vec3, 2>& into_e, const std::array<geom::Vec3, 2>& into_f,
+                            const geom::Vec3& along) {
+  const geom::Vec3 way = middle_of_fan(into_f) - middle_of_fan(into_e);
+  return way - way.dot(along) * along;
+}
+
+double falls_away(const std::array<geom::Vec3, 2>& into_e, const std::array<geom::Vec3, 2>& into_f,
+                  const geom::Vec3& normal) {
+  const auto least = [&](const std::array<geom::Vec3, 2>& into) {
+    return std::min(normal.dot(into[0].normalized()), normal.dot(into[1].normalized()));
+  };
+  return std::min(least(into_e), least({-into_f[0], -into_f[1]}));
+}
+
 std::optional<geom::Vec3> normal_between(const std::array<geom::Vec3, 2>& into_e,
                                          const std::array<geom::Vec3, 2>& into_f, const geom::Vec3& along,
                                          double clear) {
-  geom::Vec3 normal = middle_of_fan(into_f) - middle_of_fan(into_e);
-  normal = (normal - normal.dot(along) * along).normalized();
+  const geom::Vec3 normal = way_between_fans(into_e, into_f, along).normalized();
   for (int i = 0; i < 2; ++i)
     if (!(normal.dot(into_f[i]) < -clear * into_f[i].norm() &&
           normal.dot(into_e[i]) > clear * into_e[i].norm()))

@@ -61,6 +61,13 @@ bool leads_into_both(const Model&, const State&, const ContactEdge& e, const Con
 std::array<geom::Vec3, 2> into_faces(const Model&, const State&, const ContactEdge&, const geom::Vec3& x0,
                                      const geom::Vec3& x1);
 
+// Of two nearly parallel edges, out of the second one's body: from the middle of the first fan to that of the second, at right
+// angles to `along` (unit).
+geom::Vec3 way_between_fans(const std::array<geom::Vec3, 2>& into_e, const std::array<geom::Vec3, 2>& into_f,
+                            const geom::Vec3& along);
+// By which sine all four faces fall away from this normal at least; below 0: one does not.
+double falls_away(const std::array<geom::Vec3, 2>& into_e, const std::array<geom::Vec3, 2>& into_f,
+                  const geom::Vec3& normal);
 // Unit, of two nearly parallel edges, out of the second one's body: between the middles of their fans, at right angles to
 // `along` (unit). None where a face of one of them does not fall away from it by an angle of a sine above `clear`.
 std::optional<geom::Vec3> normal_between(const std::array<geom::Vec3, 2>& into_e,

@@ -12,10 +12,10 @@ namespace cdem {
 namespace {
 
 // How far, m, two edges may go, both together, before a pair that may not begin now can do so: because their common normal
-// lies outside a fan; or because their nearest places stay at the last end of one of their lines. Before they are nearly
-// parallel, as other rules hold then.
+// lies outside a fan; or because their nearest places stay at the last end of one of their lines. Before other rules hold, as
+// they are nearly parallel or no longer so.
 struct Hindrance {
-  double by_angle = 0, last_end = 0, parallel = 0;
+  double by_angle = 0, last_end = 0, other_rules = 0;
 };
 
 double sine_between(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f) {
@@ -25,17 +25,19 @@ double sine_between(const Model& model, const State& state, const ContactEdge& e
   return along(e).cross(along(f)).norm();
 }
 
+// pair_turns: rad/m, by how much two rigid blocks turn past each other at most, over what they move; infinite: they deform.
 Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
-                       const geom::PlacesOnSegments& at, bool e_ends, bool f_ends) {
+                       const NearestOfEdges& nearest, bool e_ends, bool f_ends, double pair_turns) {
   const geom::Vec3 a = place_of(model, state, e.nodes[1]) - place_of(model, state, e.nodes[0]),
                    b = place_of(model, state, f.nodes[1]) - place_of(model, state, f.nodes[0]);
   const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
   // The nearest places of two lines move by some times that over the sine between them.
   const auto left = [&](bool ends, double place, double length) {
-    return ends ? (drawn_in - std::min(place, 1 - place)) * length * sine / 16 : 0.;
+    return ends && !nearest.nearly_parallel ? (drawn_in - std::min(place, 1 - place)) * length * sine / 16
+                                            : 0.;
   };
-  return {0, std::max({0., left(e_ends, at.s, la), left(f_ends, at.t, lb)}),
-          std::max(0., 0.25 * (sine - parallel_edges) / (1 / la + 1 / lb))};
+  return {0, std::max({0., left(e_ends, nearest.at.s, la), left(f_ends, nearest.at.t, lb)}),
+          0.5 * std::abs(sine - parallel_edges) / std::min(2 / la + 2 / lb, pair_turns)};
 }
 
 // m/s, of its faster end.
@@ -46,7 +48,7 @@ double speed_of(const State& state, const ContactEdge& edge) {
 // m: until two edges have moved so far they do not touch: either normal lies outside a fan (the Gauss map),
 // or it tells that they are apart. Along a common normal of two lines any two places of them are as far from each other.
 double apart_until(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
-                   const geom::Vec3& way) {
+                   const geom::Vec3& way, double pair_turns) {
   const auto along_of = [&](const ContactEdge& edge) -> geom::Vec3 {
     return place_of(model, state, edge.nodes[1]) - place_of(model, state, edge.nodes[0]);
   };
@@ -56,7 +58,8 @@ double apart_until(const Model& model, const State& state, const ContactEdge& e,
     return 0;
   const geom::Vec3 across = a.cross(b) / (sine * la * lb);
   // An edge turns by at most twice the way of its ends over its length, its faces by what that and the way of their
-  // centroids make of it, and the common normal by what both edges make of it over the sine; all of it taken twice.
+  // centroids make of it, and the common normal by what both edges make of it over the sine; all of it taken twice. Seen from
+  // one of two rigid blocks all of the other turns alike.
   const double turns = 2 / la + 2 / lb; // 1/m
   std::array<double, 2> until{0, 0};    // of the normal along and against `across`
   for (const bool of_f : {false, true}) {
@@ -66,17 +69,37 @@ double apart_until(const Model& model, const State& state, const ContactEdge& e,
     for (int i = 0; i < 2; ++i) {
       const Corners x = corners_of(model, state, model.surface.triangles[edge.triangles[i]].nodes);
       const double arm = ((x[0] + x[1] + x[2]) / 3 - x0).norm(), height = into[i].norm();
-      const double rate = 4 * turns / sine + 4 * (1 + 2 * arm / (of_f ? lb : la)) / height;
+      const double rate = std::min(4 * turns / sine + 4 * (1 + 2 * arm / (of_f ? lb : la)) / height,
+                                   (4 / sine + 2) * pair_turns);
       for (int sign = 0; sign < 2; ++sign) { // n lies in the fan of f, -n in that of e
         const double outward = (of_f == (sign == 0) ? 1 : -1) * across.dot(into[i]) / height;
         until[sign] = std::max(until[sign], (outward - fan_slack) / rate);
       }
     }
   }
-  const double along = way.dot(across), rate_along = 1 + 4 * way.norm() * turns / sine;
+  const double turns_least = std::min(turns, pair_turns), along = way.dot(across),
+               rate_along = 1 + 4 * way.norm() * turns_least / sine;
   double& other_side = until[along > 0 ? 1 : 0]; // of the normal along which they are apart
   other_side = std::max(other_side, 0.5 * std::abs(along) / rate_along);
-  return std::min({until[0], until[1], 0.25 * sine / turns});
+  return std::min({until[0], until[1], 0.25 * sine / turns_least});
+}
+
+// m: until two rigid blocks have moved so far, nearly parallel edges of theirs have no normal between their fans. It turns by
+// twice what the middle of a fan does, over how far the two middles are apart; all of it taken twice.
+double without_normal_until(const Model& model, const State& state, const ContactEdge& e,
+                            const ContactEdge& f, double pair_turns) {
+  if (std::isinf(pair_turns))
+    return 0;
+  const auto places = [&](const ContactEdge& edge) {
+    return std::pair(place_of(model, state, edge.nodes[0]), place_of(model, state, edge.nodes[1]));
+  };
+  const auto [a0, a1] = places(e);
+  const auto [b0, b1] = places(f);
+  const geom::Vec3 way = way_between_fans(into_faces(model, state, e, a0, a1),
+                                          into_faces(model, state, f, b0, b1), (a1 - a0).normalized());
+  const double least =
+      falls_away(into_faces(model, state, e, a0, a1), into_faces(model, state, f, b0, b1), way.normalized());
+  return std::max(0.0, (clear_of_faces - least) / ((4 / way.norm() + 2) * pair_turns));
 }
 
 // Edges along each other that meet tip on tip in this step stop each other. One that slides along a face and over the edge at
@@ -105,6 +128,8 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   const bool touched = work_.edges_touched.blocks[row.source_block] && work_.edges_touched.blocks[row.block];
   const double moved = this->moved(row), from_here = this->from(row);
   const bool skips = !work_.options.looks_at_all;
+  const double pair_turns =
+      row.pair >= 0 ? work_.rigid_pairs.all[row.pair].turns : std::numeric_limits<double>::infinity();
   if (skips && moved < row.recheck_distance && !(row.hindered && touched))
     return;
   row.hindered = false;
@@ -142,10 +167,12 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
                   !lines_.cuts_off_end(target, nearest.at.t, row.source, within);
     }
     if (apart <= 0) {
-      Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest.at, e_ends, f_ends);
-      hindrance.by_angle = std::max(hindrance.by_angle, apart_until(model_, state_, e, f, nearest.way));
+      Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest, e_ends, f_ends, pair_turns);
+      hindrance.by_angle = nearest.nearly_parallel
+                               ? without_normal_until(model_, state_, e, f, pair_turns)
+                               : apart_until(model_, state_, e, f, nearest.way, pair_turns);
       candidate.recheck_distance = rounded_down(
-          from_here + std::min(hindrance.parallel, std::max(hindrance.by_angle, hindrance.last_end)));
+          from_here + std::min(hindrance.other_rules, std::max(hindrance.by_angle, hindrance.last_end)));
       candidate.springs = hindrance.last_end > hindrance.by_angle ? 1 : 0;
     }
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);

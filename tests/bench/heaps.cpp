@@ -1,0 +1,68 @@
+// A heap of rigid Voronoi blocks without bonds, each with a velocity of its own, so that all part and strike each other: what
+// a step costs a block in small heaps and in large ones.
+#include "libcdem/first_model.hpp"
+#include "libgeom/assembly/builders.hpp"
+#include "libgeom/core/random.hpp"
+#include "tests/bench/measure.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace bench {
+namespace {
+
+using namespace cdem;
+
+constexpr double block_size = 0.25, speed = 2; // m, m/s
+constexpr std::int64_t steps_to_part = 750, steps_counted = 250;
+
+Model build(int blocks) {
+  const double side = block_size * std::cbrt(blocks);
+  geom::VoronoiOptions options;
+  options.size = {side, side, side};
+  options.count = blocks;
+  BodySpec heap;
+  heap.name = "heap";
+  heap.material = {1e9, 0.2, 2500, 0};
+  heap.joint.bonded = false;
+  heap.joint.friction_angle = 0.5;
+  heap.joint.normal_stiffness = heap.joint.shear_stiffness = 2e10;
+  heap.element = Element::rigid;
+  heap.shape = geom::voronoi(options);
+  const Joint friction = heap.joint;
+  return first_model({{heap}, {{"heap", "heap", friction}}});
+}
+
+void push(State& state) {
+  for (std::size_t i = 0; i < state.rigid.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      state.rigid[i].velocity[axis] = speed * (2 * geom::uniform(1, axis, i) - 1);
+}
+
+} // namespace
+
+void heaps(const Settings& settings) {
+  std::printf("\nheaps of loose rigid blocks, one thread\n%8s %14s %14s %14s   %s\n", "blocks",
+              "contacts each", "us/block/step", "grows like n^", "time of the steps");
+  double last_blocks = 0, last_step = 0;
+  for (const int count : settings.heaps) {
+    const Model model = build(count);
+    State state = initial_state(model);
+    push(state);
+    stepped(model, {}, state, 1, steps_to_part);
+    const Stepped s = stepped(model, {}, state, 1, steps_counted);
+    const auto blocks = static_cast<double>(model.blocks.size());
+    std::printf("%8.0f %14.1f %14.2f ", blocks, static_cast<double>(state.contacts.size()) / blocks,
+                1e6 * s.processor / blocks);
+    if (last_step > 0)
+      std::printf("%14.2f", std::log(s.processor / last_step) / std::log(blocks / last_blocks));
+    else
+      std::printf("%14s", "");
+    std::printf("   %s\n", s.times.c_str());
+    std::fflush(stdout);
+    last_blocks = blocks;
+    last_step = s.processor;
+  }
+}
+
+} // namespace bench
