@@ -1,13 +1,15 @@
--- Armour units on a slope of 1:1.5 under waves that grow: one layer is laid, comes to rest in still water, and then meets
--- groups of regular waves, each group higher than the one before, with still water between them. After each group it says
--- how far every unit has moved, how far it rocked, and the damage N_od: units that left their places, by a nominal diameter Dn
--- at some time, per width of one Dn. Breakable units tell the share that broke, too.
+-- Armour units on a slope of 1:1.5 under waves that grow: they are laid in one layer or more, come to rest in still water, and
+-- then meet groups of regular waves, each group higher than the one before, with still water between them. After each group it
+-- says how far every unit has moved, how far it rocked, and the damage N_od: units that left their places, by a nominal diameter
+-- Dn at some time, per width of one Dn. Breakable units tell the share that broke, too.
 --
 --   ./cdem run examples/armour_waves/case.lua [--set units=50 --set columns=5] [--set drag=0.7]
+--   ./cdem run examples/armour_waves/case.lua --set units=16 --set layers=2
 --   ./cdem run examples/armour_waves/case.lua --set breakable=true --set tensile_strength=1e6
 local cdem = require "cdem"
 
 local count = cdem.parameter{ name = "units", default = 8, range = {8, 200}, doc = "how many" }
+local layers = cdem.parameter{ name = "layers", default = 1, range = {1, 5}, doc = "which share the units" }
 local columns = cdem.parameter{ name = "columns", default = 4, range = {2, 20}, doc = "units in a row" }
 local seed = cdem.parameter{ name = "seed", default = 1, range = {0, 1e6}, doc = "of the attitudes: another layer" }
 local mass = cdem.parameter{ name = "mass", default = 5000.0, range = {100, 1e5}, unit = "kg", doc = "of a unit" }
@@ -40,6 +42,9 @@ local draw = cdem.parameter{ name = "pictures", default = true, doc = "draw them
 local film = cdem.parameter{ name = "film", default = 0.0, range = {0, 10}, unit = "s",
                              doc = "time between frames of a film; 0: none" }
 local g, sea, gradient = 9.81, 1025, 1 / 1.5
+if count % layers > 0 or count < layers * columns then
+  error(string.format("units = %d: must be a multiple of layers = %d, with a row of %d in each", count, layers, columns))
+end
 
 local concrete = cdem.elastic{ youngs_modulus = modulus, poissons_ratio = 0.2, density = 2400, stiffness_damping = 1e-5 }
 local solid = cdem.accropode{ mass = mass, density = concrete.density, width = 0.40, corner = 0 }
@@ -47,10 +52,10 @@ local unit, H = solid:mesh{ size = solid.height / fineness }, solid.height
 local Dn = (mass / concrete.density) ^ (1 / 3)
 local scale = (mass / 5000) ^ (1 / 6) -- Froude's law: times go with the root of lengths
 period, rest, held = period * scale, rest * scale, held * scale
-local length, width = (0.55 * math.ceil(count / columns) + 2.5) * H, (1.4 * columns + 2) * H
+local length, width = (0.55 * math.ceil(count / layers / columns) + 2.5) * H, (1.4 * columns + 2) * H
 local ground = cdem.slope{ gradient = gradient, length = length, width = width }:mesh{ size = 2 * H }
-local pile = cdem.place{ unit = unit, count = count, columns = columns, onto = ground, seed = seed, friction_angle = 12,
-                         walls = true }
+local pile = cdem.place{ unit = unit, count = count, layers = layers, columns = columns, onto = ground, seed = seed,
+                         friction_angle = 12, walls = true }
 local tough = toughness > 0
 local joint = breakable and cdem.mohr_coulomb{ cohesion = 2 * tension, friction_angle = 35, tensile_strength = tension,
                                                softening = tough and "linear" or "none",
@@ -62,7 +67,10 @@ local model = cdem.model{
              { name = "walls", shape = pile:walls{ onto = ground }, material = concrete, element = "rigid" } },
   contacts = { default = cdem.coulomb{ friction_angle = roughness } } }
 model:fix{ on = {"slope", "walls"} }
-local lowest = model:lowest_units{ body = "units", count = columns }
+local lowest = {} -- rows of all layers: a layer's units follow those of the one below, its lowest row first
+for layer = 0, layers - 1 do
+  for column = 1, columns do lowest[#lowest + 1] = layer * (count // layers) + column end
+end
 model:fix{ on = cdem.select.units{ body = "units", numbers = lowest } }
 
 -- Still water stands at the middle of the layer while it comes to rest.

@@ -4,7 +4,6 @@
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/random.hpp"
 #include "libgeom/placement/laying.hpp"
-#include "libgeom/placement/pile_measures.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -21,9 +20,9 @@ constexpr double catch_up =
 constexpr double usual_gap = 2e-5; // of the height
 constexpr int most_spacings = 6;
 constexpr int units_times_spacings = 2000; // at most: a large layer has its density sooner
-// Between walls every unit can lean on three things, as a rule: where some do not, other layers are laid.
-constexpr int most_layers = 4;
-constexpr int units_times_layers = 240;
+// Between walls every unit can lean on three things, as a rule: where some do not, the layer is laid again.
+constexpr int most_attempts = 4;
+constexpr int units_times_attempts = 240;
 constexpr std::uint64_t next_seed = std::uint64_t{1} << 32;
 constexpr double density_tolerance = 0.01;
 constexpr double not_at_rest = 1; // error of the density that it counts for
@@ -56,8 +55,8 @@ int spacings_tried(int count) {
   return std::clamp(units_times_spacings / count, 2, most_spacings);
 }
 
-int layers_tried(int count, const LayerOptions& options) {
-  return options.walls && options.nudges > 0 ? std::clamp(units_times_layers / count, 1, most_layers) : 1;
+int attempts_made(int count, const LayerOptions& options) {
+  return options.walls && options.nudges > 0 ? std::clamp(units_times_attempts / count, 1, most_attempts) : 1;
 }
 
 struct Pattern {
@@ -68,6 +67,9 @@ struct Pattern {
 void check(const LayerOptions& options, int count) {
   if (count < 1)
     throw InputError("count", std::to_string(count), "at least 1");
+  require_between("layers", options.layers, 1, max_layers);
+  if (count < options.layers)
+    throw InputError("count", std::to_string(count), "at least as many as there are layers");
   require_block_count("count", std::to_string(count), count, "place fewer units");
   require_between("density", options.density, 0.05, 1.5);
   if (options.columns && *options.columns < 1)
@@ -118,18 +120,19 @@ Pattern choose_pattern(const Pile& pile, int count, const LayerOptions& options,
 // Lays rows from the toe, each unit one spacing above where the two below it have come to lie. Returns the density.
 double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first, Laying& laying,
                 const Laying* before, LayerProgress& now) {
-  pile.poses.clear();
+  const int lower = laying.lower_units();
   for (int i = 0; i < count; ++i) {
     const int row = i / pattern.columns, column = i % pattern.columns;
-    const double shift = row % 2 == 0 ? -0.25 : 0.25;
+    const bool to_the_left = (row + now.layer) % 2 == 1;
+    const double shift = to_the_left ? -0.25 : 0.25;
     Laying::Site site;
-    site.unit = i;
+    site.unit = lower + i;
     double level = 0;
-    for (const int beside : {0, row % 2 == 0 ? -1 : 1}) {
+    for (const int beside : {0, to_the_left ? -1 : 1}) {
       if (column + beside < 0 || column + beside >= pattern.columns) {
         site.end = beside;
       } else if (row > 0) {
-        site.below.push_back(i - pattern.columns + beside);
+        site.below.push_back(site.unit - pattern.columns + beside);
         level += laying.place(site.below.back()).y();
       }
     }
@@ -140,15 +143,16 @@ double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first
     const double behind = first.y() + row * pattern.spacing.rows - up;
     site.wanted = up + std::clamp(behind, -catch_up * pile.height, catch_up * pile.height);
     laying.lay(site, before);
-    now.laid = i + 1;
+    now.laid = site.unit + 1;
   }
   now.doing = "come to rest together";
-  laying.rest_together(pattern.columns);
+  laying.rest_together(lower + pattern.columns);
+  pile.poses.resize(lower);
   std::vector<double> rows; // m up the slope, means of full ones
   double sum = 0;
   for (int i = 0; i < count; ++i) {
-    pile.poses.push_back(laying.pose(i));
-    sum += laying.place(i).y();
+    pile.poses.push_back(laying.pose(lower + i));
+    sum += laying.place(lower + i).y();
     if ((i + 1) % pattern.columns == 0) {
       rows.push_back(sum / pattern.columns);
       sum = 0;
@@ -161,13 +165,13 @@ double lay_rows(Pile& pile, int count, const Pattern& pattern, const Vec3& first
 }
 
 // In the middle of the pile, away from its edges; none where it is too small to have one.
-std::optional<double> measured_density(const Pile& pile, const Ground& ground) {
+std::optional<PileMeasures> measured(const Pile& pile, const Ground& ground) {
   std::vector<Surface> units;
   units.reserve(pile.poses.size());
   for (const TetMesh& mesh : meshes(pile))
     units.push_back(surface_of(mesh));
   try {
-    return measure_pile(units, ground.surface(), pile.height, volume(pile.unit)).packing_density;
+    return measure_pile(units, ground.surface(), pile.height, volume(pile.unit));
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -186,6 +190,7 @@ struct Site {
 struct Candidate {
   std::unique_ptr<Laying> laying;
   double error = far;
+  Pattern pattern;
 
   // Units that are not where they are to be.
   std::size_t faults(int count) const {
@@ -193,6 +198,21 @@ struct Candidate {
     return rested.still ? rested.leaning.size() + rested.put_back.size() : static_cast<std::size_t>(count);
   }
 };
+
+std::optional<Laying::Between> walls_of(const Pile& pile, const Pattern& pattern, const Site& site,
+                                        const LayerOptions& options) {
+  if (!options.walls)
+    return std::nullopt;
+  const double half =
+      (0.5 * (pattern.columns - 1) + 0.25) * pattern.spacing.across + mean_half_width(pile.unit);
+  return Laying::Between{site.first.x() - half, site.first.x() + half};
+}
+
+void reposition(Candidate& layer, LayerProgress& now) {
+  now.doing = "repositioned";
+  layer.laying->reposition_unsupported(layer.laying->lower_units() + layer.pattern.columns,
+                                       [&](int left) { now.unsupported = left; });
+}
 
 // Units that lean on the row below stand closer than the pattern: its places along the contour are widened until the
 // density is the one asked for.
@@ -210,25 +230,34 @@ Candidate lay_to_density(Pile& pile, int count, const Site& site, const LayerOpt
     now.doing = "laid";
     Pattern pattern = as_asked;
     pattern.spacing.across *= widening;
-    std::optional<Laying::Between> walls;
-    if (options.walls) {
-      const double half =
-          (0.5 * (pattern.columns - 1) + 0.25) * pattern.spacing.across + mean_half_width(pile.unit);
-      walls = Laying::Between{site.first.x() - half, site.first.x() + half};
-    }
     auto laying = std::make_unique<Laying>(pile, site.ground, site.frame, site.gap, options, pattern.spacing,
-                                           walls, poll);
+                                           walls_of(pile, pattern, site, options), std::vector<Pose>(), poll);
     const double by_rows = lay_rows(pile, count, pattern, site.first, *laying, best.laying.get(), now);
-    const double density = measured_density(pile, site.ground).value_or(by_rows);
+    const auto middle = measured(pile, site.ground);
+    const double density = middle ? middle->packing_density : by_rows;
     const double error = std::abs(density / options.density - 1) +
                          (laying->rested().still || options.nudges == 0 ? 0 : not_at_rest);
     if (error < best.error)
-      best = {std::move(laying), error};
+      best = {std::move(laying), error, pattern};
     widening = std::clamp(widening * density / options.density, 0.8, widest);
   }
-  now.doing = "repositioned";
-  best.laying->reposition_unsupported(as_asked.columns, [&](int left) { now.unsupported = left; });
+  reposition(best, now);
   return best;
+}
+
+// With the spacing of the layer below, whose units do not move.
+Candidate lay_over(Pile& pile, int count, const Pattern& pattern, const Site& site,
+                   const LayerOptions& options, LayerProgress& now, const std::function<void()>& poll) {
+  now.spacing = now.spacings = 1;
+  now.unsupported = 0;
+  now.doing = "laid";
+  const std::vector<Pose> under(pile.poses);
+  Candidate layer{std::make_unique<Laying>(pile, site.ground, site.frame, site.gap, options, pattern.spacing,
+                                           walls_of(pile, pattern, site, options), under, poll),
+                  0, pattern};
+  lay_rows(pile, count, pattern, site.first, *layer.laying, nullptr, now);
+  reposition(layer, now);
+  return layer;
 }
 
 bool better(const Candidate& one, const Candidate& other, int count) {
@@ -263,30 +292,45 @@ Layer place_layer(const TetMesh& unit, int count, const Ground& ground, const La
   const Site site{ground, frame, gap, room.size().head<2>(),
                   Vec3(room.centre().x(), room.min.y() + bounding_radius(pile.unit), 0)};
   LayerProgress now;
-  now.layers = layers_tried(count, options);
-  now.spacings = spacings_tried(count);
+  now.layers = options.layers;
   const auto poll = [&] {
     if (options.tell)
       options.tell(now);
   };
-  Candidate best;
-  LayerOptions own = options;
-  for (int i = 0; i < now.layers && (i == 0 || best.faults(count) > 0); ++i) {
-    now.layer = i + 1;
-    Candidate one = lay_to_density(pile, count, site, own, now, poll);
-    layer.layers = now.layer;
-    layer.trials += now.spacing;
-    if (i == 0 || better(one, best, count))
-      best = std::move(one);
-    own.seed += next_seed;
+  layer.at_rest = true;
+  Pattern pattern; // of the lowest layer, once it is laid
+  for (int k = 0; k < options.layers; ++k) {
+    now.layer = k + 1;
+    const int own_count = count / options.layers + (k < count % options.layers ? 1 : 0);
+    const std::vector<Pose> under = pile.poses;
+    Candidate best;
+    LayerOptions own = options;
+    now.attempts = attempts_made(own_count, options);
+    for (int i = 0; i < now.attempts && (i == 0 || best.faults(own_count) > 0); ++i) {
+      now.attempt = i + 1;
+      now.spacings = spacings_tried(own_count);
+      pile.poses = under;
+      Candidate one = k == 0 ? lay_to_density(pile, own_count, site, own, now, poll)
+                             : lay_over(pile, own_count, pattern, site, own, now, poll);
+      layer.attempts = std::max(layer.attempts, now.attempt);
+      layer.trials += now.spacing;
+      if (i == 0 || better(one, best, own_count))
+        best = std::move(one);
+      own.seed += next_seed;
+    }
+    if (k == 0)
+      pattern = best.pattern;
+    pile.poses = under;
+    for (int i = 0; i < own_count; ++i)
+      pile.poses.push_back(best.laying->pose(static_cast<int>(under.size()) + i));
+    const Laying::Rested& rested = best.laying->rested();
+    layer.at_rest = layer.at_rest && rested.still;
+    layer.leaning.insert(layer.leaning.end(), rested.leaning.begin(), rested.leaning.end());
+    layer.put_back.insert(layer.put_back.end(), rested.put_back.begin(), rested.put_back.end());
   }
-  for (int i = 0; i < count; ++i)
-    pile.poses[i] = best.laying->pose(i);
-  const Laying::Rested& rested = best.laying->rested();
-  layer.at_rest = rested.still;
-  layer.leaning = rested.leaning;
-  layer.put_back = rested.put_back;
-  layer.density = measured_density(pile, ground);
+  layer.measures = measured(pile, ground);
+  if (layer.measures)
+    layer.density = layer.measures->packing_density / options.layers;
   return layer;
 }
 

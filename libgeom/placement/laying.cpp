@@ -23,6 +23,8 @@ constexpr double no_worse = 0.1;            // of the cost, with another spacing
 
 // Over the height: from where on, and how finely, places up the slope are tried.
 constexpr double lowest_place = -0.3, highest_place = 1.5, place_step = 0.05;
+constexpr double highest_on_units =
+    0.1; // the same on a layer below: behind its top row the bare slope is lower
 constexpr double on_slope =
     0.03; // over the height: how far from the bare slope a lowered unit still is on it
 
@@ -71,7 +73,7 @@ double gyration_of(const Pile& pile) {
 
 Laying::Laying(const Pile& pile, const Ground& ground, const Mat3& frame, double gap,
                const LayerOptions& options, const Spacing& spacing, std::optional<Between> walls,
-               std::function<void()> poll)
+               const std::vector<Pose>& lower, std::function<void()> poll)
     : shape_(surface_of(pile.unit)), features_(features_of(shape_)),
       ground_features_(features_of(upper_side(ground.surface()))), ground_(ground), frame_(frame), gap_(gap),
       height_(pile.height), radius_(bounding_radius(pile.unit)), gyration_(gyration_of(pile)),
@@ -81,6 +83,10 @@ Laying::Laying(const Pile& pile, const Ground& ground, const Mat3& frame, double
   for (const Mat3& rotation : attitudes_for(shape_, spacing, options.attitudes, options.seed))
     family_.emplace_back(frame.transpose() * rotation);
   stands_ = stands();
+  for (const Pose& pose : lower)
+    laid_.push_back(laid_at(pose, 0));
+  sites_.resize(lower.size());
+  lower_units_ = static_cast<int>(lower.size());
 }
 
 Surface Laying::surface_at(const Pose& pose) const {
@@ -207,7 +213,8 @@ Laying::Try Laying::lowered(const Mat3& rotation, const Site& site) const {
   if (walls_)
     along = std::max(std::min(along, walls_->high - gap_ - right), walls_->low + gap_ + left);
   Try best{{rotation, Vec3::Zero()}, unreached};
-  for (double up = site.below.empty() ? 0 : lowest_place; up < highest_place; up += place_step) {
+  const double highest = lower_units_ > 0 ? highest_on_units : highest_place;
+  for (double up = site.below.empty() ? 0 : lowest_place; up < highest; up += place_step) {
     Vec3 place(along, site.place.y() + up * height_, 0);
     const Vec3 offset(place.x(), place.y(), 0);
     double nearest = clearance(profile, offset, ground_profile_, unreached);
@@ -235,14 +242,18 @@ Laying::Try Laying::rested(const Try& first, const Site& site, const Near& near)
   RestOptions options = resting(sliding), held = resting(site.below.empty() ? standing() : options_.friction);
   held.way = roll * height_;
   Pose pose = first.pose;
-  if (!site.below.empty()) {
+  const bool lowest_row = site.below.empty(), held_on_units = lowest_row && lower_units_ > 0;
+  if (!lowest_row || held_on_units) {
     const Vec3 across = frame_.row(0), up = frame_.row(1);
     const Between room = this->room(site);
+    const double lowest = held_on_units ? -options_.play : lowest_rest;
     options.bounds = {{across, site.place.x() + room.low},
                       {-across, -site.place.x() - room.high},
-                      {up, site.place.y() + lowest_rest * height_}};
+                      {up, site.place.y() + lowest * height_}};
     pose = come_to_rest(features_, pose, others, options).pose;
   }
+  if (held_on_units)
+    held.bounds = options.bounds;
   Rest rest = come_to_rest(features_, pose, others, held);
   rest.pose = pushed_clear(features_, rest.pose, others, held);
   return {rest.pose, cost(rest, site, near), rest.still && carriers(rest) >= carriers_wanted(site)};

@@ -22,9 +22,11 @@ public:
   struct Between {
     double low = 0, high = 0; // m along the contour
   };
-  // Rows of the frame: along the contour, up the slope, out of it. poll is called now and then; it may throw.
+  // Rows of the frame: along the contour, up the slope, out of it. `lower`: units of the layers below, which stay where
+  // they are and have the first numbers. poll is called now and then; it may throw.
   Laying(const Pile&, const Ground&, const Mat3& frame, double gap, const LayerOptions&, const Spacing&,
-         std::optional<Between> walls, std::function<void()> poll);
+         std::optional<Between> walls, const std::vector<Pose>& lower, std::function<void()> poll);
+  int lower_units() const { return lower_units_; }
 
   struct Site {
     int unit = 0;
@@ -115,6 +117,7 @@ private:
   std::vector<Mat3> stands_; // in which a unit stands on the bare slope by itself
   std::vector<Site> sites_;
   std::vector<Laid> laid_;
+  int lower_units_ = 0;
   Rested rested_;
   std::function<void()> poll_;
 };

@@ -13,6 +13,8 @@ print(walls.parts)
 -- example: cdem.place
 local layer = cdem.place{ unit = unit, count = 6, onto = slope, attitudes = 20, nudges = 0 }
 print(layer.nominal_diameter)
+local two = cdem.place{ unit = unit, count = 12, layers = 2, columns = 3, onto = slope, attitudes = 20, nudges = 0 }
+print(#two) -- units 1 to 6 are the lower layer; 1 to 3 and 7 to 9 are the lowest rows, to be held
 
 -- example: pile:scaled
 local model_scale = layer:scaled{ factor = 1 / 40 }

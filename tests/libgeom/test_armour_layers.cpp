@@ -147,8 +147,8 @@ TEST_CASE("units of a layer between walls lean on three things or more, row ends
   options.friction = friction;
   int told = 0, leaning = 0, ends = 0; // over both layers
   options.tell = [&](const LayerProgress& now) {
-    CHECK(now.layer >= 1);
-    CHECK(now.layer <= now.layers);
+    CHECK(now.attempt >= 1);
+    CHECK(now.attempt <= now.attempts);
     CHECK(now.spacing >= 1);
     CHECK(now.spacing <= now.spacings);
     CHECK(now.laid <= 16);
@@ -232,6 +232,9 @@ TEST_CASE("a layer that cannot be laid is refused") {
     return refusal([&] { place_layer(accropode_mesh(), count, ground, options); });
   };
   CHECK_THAT(lay(0, [](LayerOptions&) {}), Contains("count = 0: must be at least 1"));
+  CHECK_THAT(lay(2, [](LayerOptions& o) { o.layers = 3; }),
+             Contains("count = 2: must be at least as many as there are layers"));
+  CHECK_THAT(lay(5, [](LayerOptions& o) { o.layers = 0; }), Contains("layers = 0: must be from 1 to 20"));
   CHECK_THAT(lay(5, [](LayerOptions& o) { o.density = 0; }),
              Contains("density = 0: must be from 0.05 to 1.5"));
   CHECK_THAT(lay(5, [](LayerOptions& o) { o.gap = -1; }), Contains("gap = -1: must be finite and > 0 m"));
@@ -287,15 +290,54 @@ TEST_CASE("between walls a layer in which units lean on too little is laid anew 
   options.density = 0.35; // so wide that some find but two things to lean on
   options.walls = true;
   Layer layer;
-  for (options.seed = 5; options.seed < 40 && (layer.layers == 1 || layer.layers == 4); ++options.seed)
+  for (options.seed = 5; options.seed < 40 && (layer.attempts == 1 || layer.attempts == 4); ++options.seed)
     layer = place_layer(accropode_mesh(), 6, slope_ground(1 / 1.5), options);
   // The same attitudes would be in vain four times.
-  CHECK(layer.layers > 1);
-  CHECK(layer.layers < 4);
-  CHECK(layer.trials >= layer.layers);
+  CHECK(layer.attempts > 1);
+  CHECK(layer.attempts < 4);
+  CHECK(layer.trials >= layer.attempts);
   CHECK(layer.at_rest);
   CHECK(layer.leaning.empty());
   CHECK(layer.put_back.empty());
+}
+
+TEST_CASE("a second layer lies on the first, at rest on three things, and leaves it as it is") {
+  const double gradient = 1 / 1.5, gap = 1e-3;
+  const Ground ground = slope_ground(gradient);
+  LayerOptions options;
+  options.columns = 3;
+  options.attitudes = 100;
+  options.gap = gap;
+  options.walls = true;
+  const Layer one = place_layer(accropode_mesh(), 9, ground, options);
+  options.layers = 2;
+  const Layer two = place_layer(accropode_mesh(), 17, ground, options);
+  CHECK(two.at_rest);
+  CHECK(two.leaning.size() <= 1);
+  CHECK(two.put_back.empty());
+  const Pile& pile = two.pile;
+  REQUIRE(pile.poses.size() == 17);
+  for (int i = 0; i < 9; ++i) {
+    CHECK(pile.poses[i].translation == one.pile.poses[i].translation);
+    CHECK(pile.poses[i].rotation == one.pile.poses[i].rotation);
+  }
+  CHECK(least_distance(pile, 0.01) >= 0.99 * gap);
+  const std::vector<Surface> units = surfaces(pile);
+  const Vec3 normal = ground.normal({{0, -10}, {40, 10}}), up = Vec3(1, 0, gradient).normalized();
+  for (int i = 9; i < 17; ++i) {
+    INFO("unit " << i + 1);
+    CHECK(distance(units[i], ground.surface(), 1) >= 0.99 * gap);
+    int below = 0;
+    for (int j = 0; j < 9; ++j)
+      below += distance(units[i], units[j], 0.1) <= 1.5 * gap ? 1 : 0;
+    CHECK(below >= 1);
+    // As far up as the unit of the same row below, and higher. A unit of the top row may come down into the half place
+    // that is free beside a wall.
+    const Vec3 here = pile.poses[i].translation, there = pile.poses[i - 9].translation;
+    if (i < 15)
+      CHECK(normal.dot(here - there) > 0.3 * pile.height);
+    CHECK(std::abs(up.dot(here - there)) < 0.7 * pile.height);
+  }
 }
 
 TEST_CASE("walls stand at the ends of the pile and on the ground, clear of it and of each other") {

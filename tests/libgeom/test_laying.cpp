@@ -97,13 +97,15 @@ TEST_CASE("who watches a layer being repositioned is told how many units lack a 
   CHECK(layer.leaning.size() <= static_cast<std::size_t>(told.front()));
 }
 
-TEST_CASE("a layer is the same with one thread and with several") {
+TEST_CASE("layers are the same with one thread and with several") {
   LayerOptions options;
   options.columns = 4;
+  const int layers = GENERATE(1, 2);
   const auto laid = [&](int threads) {
     const int before = omp_get_max_threads();
     omp_set_num_threads(threads);
-    Layer layer = place_layer(box_mesh({1, 1, 1}, {1, 1, 1}), 10, breakwater_slope(), options);
+    options.layers = layers;
+    Layer layer = place_layer(box_mesh({1, 1, 1}, {1, 1, 1}), 10 * layers, breakwater_slope(), options);
     omp_set_num_threads(before);
     return layer;
   };

@@ -226,6 +226,30 @@ TEST_CASE("a layer of armour units stays as it was laid when it settles", "[lua]
                  "  assert(math.sqrt(way) <= 0.1, i .. ' has moved by ' .. math.sqrt(way))\nend") == "");
 }
 
+TEST_CASE("two layers of armour units stay as they were laid when they settle between walls", "[lua]") {
+  // The lowest row of each layer is held, as at a toe. No unit moves by a fiftieth of its height.
+  CHECK(
+      error_of(head +
+               "local unit = cdem.accropode{ height = 1, corner = 0 }:mesh{ size = 0.5 }\n"
+               "local slope = cdem.slope{ gradient = 2 / 3, length = 4, width = 6 }:mesh{ size = 3 }\n"
+               "local pile = cdem.place{ unit = unit, count = 12, layers = 2, onto = slope, columns = 3,\n"
+               "                         friction_angle = 12, walls = true }\n"
+               "local model = cdem.model{\n"
+               "  bodies = { { shape = slope, material = concrete, element = 'rigid', name = 'slope' },\n"
+               "             { shape = pile, material = concrete, element = 'rigid', name = 'units' },\n"
+               "             { shape = pile:walls{ onto = slope }, material = concrete, element = 'rigid',\n"
+               "               name = 'walls' } },\n"
+               "  contacts = { default = cdem.coulomb{ friction_angle = 35 } } }\n"
+               "model:fix{ on = {'slope', 'walls'} }\n"
+               "model:fix{ on = cdem.select.units{ body = 'units', numbers = {1, 2, 3, 7, 8, 9} } }\n"
+               "model:gravity{ vector = {0, 0, -9.81} }\n"
+               "model:settle{ kinetic_energy_ratio = 1e-4, friction_angle = 15 }\n"
+               "for i, pose in ipairs(model:pile{ body = 'units' }:poses()) do\n"
+               "  local from, way = pile:poses()[i].centroid, 0\n"
+               "  for k = 1, 3 do way = way + (pose.centroid[k] - from[k]) ^ 2 end\n"
+               "  assert(math.sqrt(way) <= 0.02, i .. ' has moved by ' .. math.sqrt(way))\nend") == "");
+}
+
 TEST_CASE("default is the law between meshed bodies, and between the units of one", "[lua]") {
   // Three cubes fall on the slab and on each other.
   const std::string fall =

@@ -59,8 +59,13 @@ const Record<geom::DropOptions> drop_options{
 
 const Record<geom::LayerOptions> layer_options{
     {{attitude_seed(), &geom::LayerOptions::seed},
+     {integer("layers")
+          .within(1, geom::max_layers)
+          .standard()
+          .doc("on top of each other, the lowest first; each has its share of the units"),
+      &geom::LayerOptions::layers},
      {number("density").within(0.05, 1.5).standard().doc(
-          "phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
+          "of each layer: phi = N Dn^2 / A, units on an area of slope times that of their equal cube's side"),
       &geom::LayerOptions::density},
      {integer("columns").at_least(1).doc("units in a row; as many as the region allows when left out"),
       &geom::LayerOptions::columns},
@@ -115,7 +120,9 @@ public:
     if (now.unsupported > 0)
       progress_.note += ", " + std::to_string(now.unsupported) + " of them with fewer than three supports";
     if (now.layers > 1)
-      progress_.note += ", layer " + of_at_most(now.layer, now.layers);
+      progress_.note += ", layer " + std::to_string(now.layer) + " of " + std::to_string(now.layers);
+    if (now.attempts > 1)
+      progress_.note += ", attempt " + of_at_most(now.attempt, now.attempts);
     progress_.note += ", spacing " + of_at_most(now.spacing, now.spacings);
     tell();
   }
@@ -163,8 +170,13 @@ void tell(Session& session, const geom::Layer& layer, double density) {
     session.warn(
         name + "the units were laid one by one, but did not come to rest together, clear of each other; they "
                "will move when they settle; try another seed, a lower density or a larger gap");
-  if (layer.layers > 1)
-    session.message(name + "laid " + std::to_string(layer.layers) +
+  if (layer.measures)
+    session.message(name + "in the middle of the pile the packing density of a layer is " +
+                    three_digits(*layer.density) + ", the porosity " +
+                    three_digits(layer.measures->porosity) + ", the thickness of all layers " +
+                    three_digits(layer.measures->thickness / layer.pile.height) + " of a unit's height");
+  if (layer.attempts > 1)
+    session.message(name + "laid " + std::to_string(layer.attempts) +
                     " times, each with other attitudes, as units slid off, leant on too little or did not "
                     "rest; the best is taken");
   if (!layer.put_back.empty())
@@ -323,12 +335,18 @@ void bind_piles(Module& m) {
       "of the region, so far apart that they are clear of each other in every attitude. Rows run across the "
       "rise of the ground, the lowest first.",
       unit + drop_options.fields(), drop, "cdem.Pile");
-  m.add("place",
-        "One layer of armour units on a slope, in the staggered pattern of a packing density. The units are "
-        "laid row by row from the toe: each comes down above the gap between two units of the row below and "
-        "slides against them. Then the units come to rest together under their weight with friction. The "
-        "lowest row does not take part, as it is to be held.",
-        unit + layer_options.fields(), lay, "cdem.Pile");
+  m.add(
+      "place",
+      "One or more layers of armour units on a slope, in the staggered pattern of a packing density. The "
+      "units "
+      "are laid row by row from the toe: each comes down above the gap between two units of the row below "
+      "and "
+      "slides against them. Then the units come to rest together under their weight with friction. The "
+      "lowest row does not take part, as it is to be held. The next layer is laid on the one below in the "
+      "same "
+      "way, its units above the gaps; its lowest row is to be held too. The units of a layer follow those of "
+      "the layer below, and in a layer those of the lowest row come first.",
+      unit + layer_options.fields(), lay, "cdem.Pile");
   m.add("read_pile", "A pile that pile:save{} wrote.", {text("file").required()}, read_pile, "cdem.Pile");
   bind_class(m);
 }
