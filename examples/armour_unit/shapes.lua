@@ -10,7 +10,9 @@ local fineness = cdem.parameter{ name = "fineness", default = 5.0, range = {3, 6
 local toughness = cdem.parameter{ name = "fracture_energy", default = 100.0, range = {1, 1e6}, unit = "J/m2" }
 local only = cdem.parameter{ name = "only", default = "all", doc = "one of the changes" }
 
--- hold: share of the extent from the held side that is fixed, the side alone at 0; load: outer faces that take the flow.
+-- hold: share of the extent from the held side that is fixed, the side alone at 0; load: outer faces that take the flow, those
+-- of one side or of the third that is farthest from the held side; above: other proportions of the upper half.
+local thin_bars = { core = 0.28, bar = 0.20 } -- bars that are free over 1.8 times their depth, once as long as deep
 local changes = {
   { name = "unchanged" },
   { name = "thin_core", shape = { core = 0.28 } },
@@ -21,6 +23,11 @@ local changes = {
   { name = "held_to_a_third", hold = 0.34 },
   { name = "held_to_a_quarter_thin_core", shape = { core = 0.28 }, hold = 0.25 },
   { name = "load_on_the_side", load = "side" },
+  { name = "held_to_a_half", hold = 0.5 },
+  { name = "held_to_a_half_thin_bars", shape = thin_bars, hold = 0.5 },
+  { name = "load_on_the_top", load = "top" },
+  { name = "load_on_the_top_held_to_a_half", load = "top", hold = 0.5 },
+  { name = "thin_bars_above", above = thin_bars },
 }
 local concrete = cdem.elastic{ youngs_modulus = unit.youngs_modulus, poissons_ratio = unit.poissons_ratio,
                                density = unit.density }
@@ -34,23 +41,35 @@ for _, change in ipairs(changes) do
     local settings = { mass = 5000, density = unit.density, shape = "stocky" }
     for key, value in pairs(change.shape or {}) do settings[key] = value end
     local solid = cdem.accropode(settings)
-    local mesh = solid:mesh{ size = solid.height / fineness }
+    local height = solid.height
+    if change.above then
+      local H = height
+      local upper = cdem.accropode{ height = H, shape = "stocky", core = change.above.core, bar = change.above.bar }
+      local function half(of, z)
+        return cdem.solid.common{ solid = of, other = cdem.solid.box{ size = {2 * H, 2 * H, H}, origin = {-H, -H, z} } }
+      end
+      solid = cdem.solid.union{ solids = { half(solid, -H), half(upper, 0) } }
+    end
+    local mesh = solid:mesh{ size = height / fineness }
     local box = mesh:box()
     for _, number in ipairs(cases) do
       local case = unit.cases[number]
       local model = cdem.model{ bodies = { { shape = mesh, material = concrete, joint = joint, bonds = "cohesive",
                                              name = "unit" } } }
-      local held = case.held
-      if change.hold then
-        local axis, far = axis_of[case.held:sub(1, 1)], {}
-        for i = 1, 3 do far[i] = box.max[i] end
-        far[axis] = box.min[axis] + change.hold * (box.max[axis] - box.min[axis])
-        held = cdem.select.box{ min = box.min, max = far }
+      local axis = axis_of[case.held:sub(1, 1)]
+      local function part(from, to) -- between two shares of the extent from the held side
+        local low, high = {}, {}
+        for i = 1, 3 do low[i], high[i] = box.min[i], box.max[i] end
+        low[axis] = box.min[axis] + from * (box.max[axis] - box.min[axis])
+        high[axis] = box.min[axis] + to * (box.max[axis] - box.min[axis])
+        return cdem.select.box{ min = low, max = high }
       end
+      local held = change.hold and part(0, change.hold) or case.held
       model:fix{ on = held }
       local side = case.flow[1] > 0 and "x-" or case.flow[2] > 0 and "y-" or "z-"
       local broken = model:critical_flow{ direction = case.flow, mode = "hold", held = case.held,
-                                          on = change.load == "side" and side or "all" }
+                                          on = change.load == "side" and side or change.load == "top" and part(2 / 3, 1)
+                                               or "all" }
       local key = string.format("%s_%d_", change.name, number)
       figures[#figures + 1] = { name = key .. "m_per_s", value = broken.velocity, unit = "m/s", reference = case.velocity,
                                 kind = "paper", source = "Feng 2014 table 2; ended by " .. broken.reason }

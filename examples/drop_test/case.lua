@@ -110,7 +110,7 @@ local function fall(height, filmed)
   local model = cdem.model{
     bodies = { struck, { shape = mesh, material = concrete, joint = joint, name = "unit", bonds = bonds } }, contacts = contacts }
   for _, zone in ipairs(tough and model:process_zones() or {}) do
-    if zone.of == "unit" then faces_in_zone = zone.faces_in_zone end
+    if zone.of:find("unit", 1, true) then faces_in_zone = zone.faces_in_zone end
   end
   if not other then
     if floor == "rigid" then
