@@ -28,6 +28,7 @@ local changes = {
   { name = "load_on_the_top", load = "top" },
   { name = "load_on_the_top_held_to_a_half", load = "top", hold = 0.5 },
   { name = "thin_bars_above", above = thin_bars },
+  { name = "thinner_bars_above", above = { core = 0.28, bar = 0.15 } },
 }
 local concrete = cdem.elastic{ youngs_modulus = unit.youngs_modulus, poissons_ratio = unit.poissons_ratio,
                                density = unit.density }
