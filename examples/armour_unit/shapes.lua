@@ -8,6 +8,7 @@ local unit = require "unit"
 local cases = cdem.parameter{ name = "cases", default = {2, 4, 6}, range = {1, 6}, doc = "set-ups" }
 local fineness = cdem.parameter{ name = "fineness", default = 5.0, range = {3, 60}, doc = "height over edge of the tets" }
 local toughness = cdem.parameter{ name = "fracture_energy", default = 100.0, range = {1, 1e6}, unit = "J/m2" }
+local draw = cdem.parameter{ name = "pictures", default = false, doc = "of each unit as it breaks" }
 local only = cdem.parameter{ name = "only", default = "all", doc = "one of the changes" }
 
 -- hold: share of the extent from the held side that is fixed, the side alone at 0; load: outer faces that take the flow, those
@@ -72,6 +73,13 @@ for _, change in ipairs(changes) do
                                           on = change.load == "side" and side or change.load == "top" and part(2 / 3, 1)
                                                or "all" }
       local key = string.format("%s_%d_", change.name, number)
+      if draw then
+        local most = model:max("displacement.magnitude")
+        model:picture{ file = key .. "breaks.png", colour = "displacement.magnitude", camera = unit.camera(case, height, 2.9),
+                       axes = false, deformation = most > 0 and math.floor(0.1 * height / most) or 0,
+                       title = string.format("Case %d, %s: broken at %.1f m/s", number, change.name:gsub("_", " "),
+                                             broken.velocity) }
+      end
       figures[#figures + 1] = { name = key .. "m_per_s", value = broken.velocity, unit = "m/s", reference = case.velocity,
                                 kind = "paper", source = "Feng 2014 table 2; ended by " .. broken.reason }
       figures[#figures + 1] = { name = key .. "place", value = unit.place(broken, case), reference = case.place, kind = "paper",
