@@ -1,4 +1,5 @@
 // Loads and supports: what arrives at the nodes, and what comes back at the supports.
+#include "libcdem/bond/release.hpp"
 #include "tests/libcdem/columns.hpp"
 #include "tests/libcdem/going_on.hpp"
 
@@ -70,6 +71,26 @@ TEST_CASE("a pressure all round has no resultant", "[loads]") {
   s.load_all_faces(-1e6 * geom::Mat3::Identity());
   CHECK(resultant(s).force.norm() < 1e-10 * 1e6);
   CHECK(resultant(s).moment.norm() < 1e-10 * 1e6);
+}
+
+TEST_CASE("a pressure does not act on faces between blocks that have parted", "[loads]") {
+  cdem::BodySpec rock = body("rock", geom::grid({2, 1, 1}, {2, 1, 1}));
+  rock.element = cdem::Element::finite_volume;
+  System s(build({rock}));
+  s.load_all_faces(-1e6 * geom::Mat3::Identity());
+  std::fill(s.state.bond_mode.begin(), s.state.bond_mode.end(),
+            static_cast<std::uint8_t>(cdem::BondMode::broken_tension));
+  const cdem::Block& right = s.model.blocks[1];
+  for (int node = right.node_begin; node < right.node_end; ++node)
+    s.state.displacement[node].x = 0.5;
+  REQUIRE(release_interfaces(s.model, s.state, 1).interfaces == 1);
+  CHECK(resultant(s).force.norm() < 1e-6);
+  cdem::ResolvedConditions resolved = cdem::resolve(s.model, s.state, s.conditions);
+  cdem::update_external(resolved, 0);
+  Vec3 on_right = Vec3::Zero();
+  for (int node = right.node_begin; node < right.node_end; ++node)
+    on_right += vec(resolved.external[node]);
+  CHECK((on_right - Vec3(-1e6, 0, 0)).norm() < 1e-6); // its outer end alone, 1 m2
 }
 
 namespace {

@@ -122,6 +122,30 @@ TEST_CASE("sliding blocks: at a constant normal displacement a joint keeps its n
   CHECK(box.s.joints({}).at(0).mean_slip == Approx(0.3).epsilon(0.01));
 }
 
+TEST_CASE(
+    "sliding blocks: each bond that broke stands once among the breaks, whatever springs the faces have now",
+    "[sliding]") {
+  cdem::Joint joint = pressed_joint();
+  joint.bonded = true;
+  joint.cohesion = joint.tensile_strength = 1e5;
+  ShearBox box(joint, odd, 2e5);
+  const cdem::ModelCounts before = box.s.counts();
+  CHECK(before.intact == before.bonds);
+  box.move_top({0.4, 0.2, 0});
+  std::int64_t broken = 0;
+  bool other_springs = false;
+  for (int i = 0; i < 8; ++i) {
+    const cdem::RunResult ran = box.s.run(lasting(0.25));
+    const cdem::ModelCounts now = box.s.counts();
+    CHECK(now.broken_tension + now.broken_shear == now.bonds);
+    broken += ran.broken_tension + ran.broken_shear;
+    other_springs = other_springs || now.bonds != before.bonds;
+  }
+  CHECK(other_springs);
+  CHECK(broken == before.bonds);
+  CHECK(static_cast<std::int64_t>(box.s.log().breaks.size()) == before.bonds);
+}
+
 TEST_CASE("sliding blocks: under a constant pressure a block does not sink", "[sliding]") {
   const geom::Mat3 turn = GENERATE(straight, odd);
   const double pressure = 1e6, closure = pressure / kn;

@@ -354,7 +354,8 @@ void bind_conditions(Module& m) {
       .add("traction",
            "Force per undeformed area on outer faces: a stress, or a pressure along their inward normals, "
            "such as that of a reservoir. It acts on faces that are free as the stage begins and does not "
-           "follow them. Several tractions on a face add up.",
+           "follow them; faces between blocks that have parted and the sides of cracks take none. "
+           "Several tractions on a face add up.",
            std::vector<Field>{on(), vec3("stress", "Pa").doc("force over area")} + face_pressure.fields() +
                std::vector<Field>{amplitude_field(), since_field()},
            traction)

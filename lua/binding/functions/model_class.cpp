@@ -18,7 +18,9 @@ using geom::InputError;
 
 const Record<ModelCounts> counts_record{
     "Counts",
-    "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and contacts.",
+    "Each bond (spring point) stands in exactly one of intact, broken_tension, broken_shear and contacts. "
+    "These are the springs of the model as it is now: faces of blocks that are cut or have slid have got new "
+    "ones, so that more or fewer are broken now than have broken (`model:breaks`).",
     {{integer("bodies"), &ModelCounts::bodies},
      {integer("blocks"), &ModelCounts::blocks},
      {integer("nodes"), &ModelCounts::nodes},
