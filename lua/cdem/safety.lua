@@ -10,6 +10,7 @@ local function text(factor) return string.format("F = %.4g", factor) end
 local function length_of(v) return math.sqrt(v[1] ^ 2 + v[2] ^ 2 + v[3] ^ 2) end
 
 local moves = 0.2 -- part of the largest displacement: blocks that have moved as far fail
+local far = 0.02 -- part of the size of what moved: what went further may stand on what it met there
 
 -- What fails: cdem.Mechanism. nil where nothing has moved.
 local function mechanism_of(model)
@@ -50,6 +51,15 @@ local function described(m)
   return string.format("%s, %.3g m3 together (%.2g %% of the model), the largest %.3g m3, about %s, moving along "
                        .. "(%.2f, %.2f, %.2f)",
                        counted(#m.blocks), m.volume, 100 * m.share, m.largest, place(m.centroid), table.unpack(direction))
+end
+
+local function tell_of_way(factor, m)
+  local moved, size = m and length_of(m.displacement) or 0, m and m.volume ^ (1 / 3) or 1
+  if moved > far * size then
+    cdem.log(string.format("warning: %s is stable, but only after a way of %.3g m, %.2g %% of the size of what moved (%s): it "
+                           .. "may stand on what it met there, and a smaller factor may fail. Look at it, and search below: "
+                           .. "upper = %.4g", text(factor), moved, 100 * moved / size, counted(#m.blocks), factor))
+  end
 end
 
 local function remove(model, m)
@@ -124,7 +134,11 @@ function cdem.factor_of_safety(options)
       cdem.log(string.format("%s: %s of %.3g m3 fail in mechanisms below smallest = %.3g m3; the trial went on without "
                              .. "them", text(factor), counted(left_out), volume, o.smallest))
     end
-    if r.verdict ~= "stable" then sides.mechanism, sides.left_out = mechanism or nil, left_out end
+    if r.verdict ~= "stable" then
+      sides.mechanism, sides.left_out = mechanism or nil, left_out
+    else
+      tell_of_way(factor, mechanism_of(model))
+    end
     trials[#trials + 1] = { factor = factor, verdict = r.verdict, steps = r.steps, residual = r.residual }
     sides[r.verdict == "stable" and "stable" or "failing"] = model
     return r.verdict == "stable"

@@ -94,11 +94,13 @@ Vec3 pull_at(double angle) {
 // The same with a joint of its own between the two, in a body of a rougher one and with a rougher law in contacts.
 System leaning_on_its_joint(double jitter) {
   cdem::BodySpec unit = meshed("unit", placed(two_parts(jitter), straight, Vec3::Zero()), between_halves(),
-                               soft_rock(1e9), halves_joint(false));
+                               soft_rock(1e9), halves_joint());
   unit.joint.friction_angle = 45 * degree;
+  cdem::Joint own = unit.joint;
+  own.friction_angle = friction_angle;
+  own.tensile_strength = own.cohesion = 1; // Pa
   unit.region_laws.regions.push_back({0, 1});
-  unit.region_laws.joints.push_back(unit.joint);
-  unit.region_laws.joints.back().friction_angle = friction_angle;
+  unit.region_laws.joints.push_back(own);
   System s(build({unit}, {{"unit", "unit", friction(35)}}));
   s.hold(cdem::Selection::where([](const Vec3& x) { return x.z() < 1e-6; }, "the foot"), "xyz");
   s.conditions.gravity = gravity(pull_at(steep));

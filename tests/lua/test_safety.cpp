@@ -79,6 +79,30 @@ TEST_CASE("the factor of safety of a block on an incline is tan(phi) / tan(a)", 
              Contains("factor_of_safety_upper") && Contains("\"trial\": \"F = 0.9\""));
 }
 
+TEST_CASE("a factor of safety tells of a trial that stands only after a long way", "[lua][safety]") {
+  Script script(head + R"(
+local soft = cdem.elastic{ youngs_modulus = 2e6, poissons_ratio = 0.2, density = 2500 }
+local function held()
+  local m = cdem.model{ bodies = {
+    { name = "base", shape = cdem.box{ size = {3, 1, 0.5}, origin = {-1, 0, -0.5} }, material = stone },
+    { name = "block", shape = cdem.box{ size = {1, 1, 0.5} }, material = soft },
+    { name = "stop", shape = cdem.box{ size = {0.4, 1, 0.5}, origin = {1.03, 0, 0.001} }, material = stone } },
+    contacts = { { "base", "block", cdem.coulomb{ friction_angle = 35 } },
+                 { "block", "stop", cdem.coulomb{ friction_angle = 0 } } } }
+  m:fix{ on = "base" }
+  m:fix{ on = "stop" }
+  local a = math.rad(25)
+  m:gravity{ vector = {9.81 * math.sin(a), 0, -9.81 * math.cos(a)} }
+  return m
+end
+cdem.factor_of_safety{ builder = held, reduce = {"joints"}, lower = 1, upper = 2 })");
+  CHECK_THROWS_WITH(script.run(), Contains("the model is stable there still"));
+  const auto tells = [](const std::string& line) {
+    return line.find("stable, but only after a way") != std::string::npos;
+  };
+  CHECK(std::count_if(script.listener->lines.begin(), script.listener->lines.end(), tells) == 1);
+}
+
 TEST_CASE("a factor of safety tells what fails, and passes over what is too small to count",
           "[lua][safety]") {
   // Two planes through a box, of 30 and 38 degrees: the steep one cuts off a corner that slides first, tan phi / tan dip.
