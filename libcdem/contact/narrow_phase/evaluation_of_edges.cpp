@@ -77,10 +77,13 @@ double apart_until(const Model& model, const State& state, const ContactEdge& e,
       }
     }
   }
+  // How far they are apart changes by what they move, and by what their normal turns over the way between them; the latter
+  // alone is taken twice.
+  constexpr double rounding = 1 - 1e-6;
   const double turns_least = std::min(turns, pair_turns), along = way.dot(across),
                rate_along = 1 + 4 * way.norm() * turns_least / sine;
   double& other_side = until[along > 0 ? 1 : 0]; // of the normal along which they are apart
-  other_side = std::max(other_side, 0.5 * std::abs(along) / rate_along);
+  other_side = std::max(other_side, rounding * std::abs(along) / rate_along);
   return std::min({until[0], until[1], 0.25 * sine / turns_least});
 }
 
