@@ -17,7 +17,7 @@ local groups = cdem.parameter{ name = "groups", default = 5, range = {1, 50}, do
 local layers = cdem.parameter{ name = "layers", default = 5, range = {2, 100}, doc = "of rigid units: seeds 1, 2, ..." }
 local seeds = cdem.parameter{ name = "seeds", default = 2, range = {1, 100}, doc = "of breakable units: seeds 1, 2, ..." }
 local strengths = cdem.parameter{ name = "strengths", default = {0.7e6, 1e6, 1.4e6}, range = {1e3, 1e9}, unit = "Pa" }
-local masses = cdem.parameter{ name = "masses", default = {5000.0, 8000.0}, range = {100, 1e5}, unit = "kg" }
+local masses = cdem.parameter{ name = "masses", default = {5000.0, 8000.0, 12000.0}, range = {100, 1e5}, unit = "kg" }
 local heights = cdem.parameter{ name = "heights", default = {6.0, 7.5}, range = {0.1, 100}, unit = "m", doc = "of the wave" }
 local toughness = cdem.parameter{ name = "fracture_energy", default = 0.0, range = {0, 1e6}, unit = "J/m2", doc = "0: brittle" }
 local quiet = cdem.parameter{ name = "rigid_for", default = 4.4, range = {0, 1000}, unit = "s", doc = "of case.lua" }
