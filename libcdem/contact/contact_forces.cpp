@@ -128,8 +128,10 @@ ContactSums contact_forces(const Model& model, State& state, ContactWork& own, i
       const Contact::Kind kind = edge ? Contact::edge : Contact::spring;
       const std::int64_t begin = (edge ? first + i - n_springs : first + i) * contact_rows_per_chunk;
       ContactCandidate* const candidates = own.rows[kind].candidates.data();
-      Evaluation evaluation(model, state, own, kind, out);
       RowsAsleep& asleep = own.rows[kind].asleep;
+      if (asleep.awake[begin / contact_rows_per_chunk] == 0)
+        return;
+      Evaluation evaluation(model, state, own, kind, out);
       for (std::uint64_t bits = asleep.awake[begin / contact_rows_per_chunk]; bits != 0; bits &= bits - 1) {
         const std::int64_t r = begin + __builtin_ctzll(bits);
         ContactRow& row = own.rows[kind].all[r];
@@ -165,7 +167,8 @@ double contact_energy(const Model& model, const State& state, double lag) {
     if (now.effective_penetration() > 0)
       then.depth = std::max(then.depth + along, then.reference_penetration);
     then.damping = part_damped(now, law) * law.kn *
-                   std::clamp(pressed_by_approach(now, law) + along, 0.0, then.effective_penetration());
+                   std::clamp(pressed_by_approach(now, law, part_damped(now, law)) + along, 0.0,
+                              then.effective_penetration());
     then.shear += law.ks * (ago - along * now.normal);
     const double limit = friction_limit(law.kn * then.effective_penetration(), law.tan_friction);
     then.shear *= held_by_friction(then.shear.norm(), limit);

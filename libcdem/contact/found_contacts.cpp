@@ -203,41 +203,45 @@ void FoundContacts::add_on_rigid(const ContactForce& f) {
   }
 }
 
-// What contacts stored and did not give back that act no more: those that opened gave it back, the other side of the rest
-// has gone round an edge or off the end of another. Both lists are sorted.
-void FoundContacts::add_losses() {
-  auto next = work_.now.begin();
+// The contacts of before and those of now are sorted.
+void FoundContacts::find_ended() {
+  ended_.clear();
+  auto next = work_.now.cbegin();
   for (const Contact& c : state_.contacts) {
-    while (next != work_.now.end() && key(*next) < key(c))
+    while (next != work_.now.cend() && stands_before(*next, c))
       ++next;
-    if (c.kind != Contact::tets && (next == work_.now.end() || key(*next) != key(c)) &&
-        keeps(model_, work_, c))
-      friction_.add(
-          end_loss(c, law_of(model_, c), work_.step * velocity_past(state_, arms_of(model_, state_, c))));
+    if (c.kind != Contact::tets && (next == work_.now.cend() || key(*next) != key(c)))
+      ended_.push_back(&c);
   }
 }
 
-// All ranks know all contacts of deformable bodies. Both lists are sorted.
+// What contacts stored and did not give back that act no more: those that opened gave it back, the other side of the rest
+// has gone round an edge or off the end of another.
+void FoundContacts::add_losses() {
+  for (const Contact* const c : ended_)
+    if (keeps(model_, work_, *c))
+      friction_.add(
+          end_loss(*c, law_of(model_, *c), work_.step * velocity_past(state_, arms_of(model_, state_, *c))));
+}
+
+// All ranks know all contacts of deformable bodies.
 void FoundContacts::remember_opened() {
   std::vector<OpenedContact>& all = state_.opened_contacts;
   if (!work_.damps) {
     all.clear();
     return;
   }
-  const auto closed = [next = work_.now.begin(), this](const auto& c) mutable {
-    while (next != work_.now.end() && key(*next) < key(c))
-      ++next;
-    return next != work_.now.end() && key(*next) == key(c);
-  };
   for (OpenedContact& opened : all)
     opened.left -= work_.step;
   all.erase(std::remove_if(all.begin(), all.end(),
-                           [is_closed = closed](const OpenedContact& opened) mutable {
-                             return !(opened.left > 0) || is_closed(opened);
+                           [&](const OpenedContact& opened) {
+                             return !(opened.left > 0) ||
+                                    std::binary_search(work_.now.begin(), work_.now.end(), opened.last,
+                                                       stands_before);
                            }),
             all.end());
-  for (auto [c, is_closed] = std::tuple(state_.contacts.begin(), closed); c != state_.contacts.end(); ++c)
-    if (c->kind != Contact::tets && c->at_rest > 0 && !is_told_by_sums(model_, *c) && !is_closed(*c)) {
+  for (const Contact* const c : ended_)
+    if (c->at_rest > 0 && !is_told_by_sums(model_, *c)) {
       const auto [a, b] = blocks_of(model_, *c);
       if (const double frequency = frequency_on_contacts(model_, work_, a, b); frequency > 0)
         all.push_back({*c, time_of_opening / frequency});
@@ -329,9 +333,12 @@ void FoundContacts::set_values() {
 }
 
 ContactSums FoundContacts::end() {
+  find_ended();
   add_losses();
-  if (!work_.shared->alone())
+  if (!work_.shared->alone()) {
     exchange();
+    find_ended();
+  }
   remember_opened();
   add_tets();
   set_values();

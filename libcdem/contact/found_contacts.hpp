@@ -29,6 +29,7 @@ private:
   void add_at_node(int node, int block, const geom::Vec3& force, double stiffness);
   void add_on_rigid(const ContactForce&);
   RigidSums& touched(int rigid);
+  void find_ended();
   void add_losses();
   void remember_opened();
   void add_tets();
@@ -41,6 +42,7 @@ private:
   ContactSums sums_;
   ExactSum friction_, damping_; // J
   std::vector<TetChunk> tets_;
+  std::vector<const Contact*> ended_; // in this step
   std::array<std::vector<ContactForce>, 2>
       told_; // to all ranks: of what deforms, per kind, in the order of rows
 };

@@ -23,7 +23,9 @@ constexpr double reach_over_depth = 1.5;
 Evaluation::Evaluation(const Model& model, const State& state, const ContactWork& work, Contact::Kind kind,
                        ContactChunk& out)
     : model_(model), surface_(model.surface), state_(state), work_(work), kind_(kind), out_(out),
-      lines_(model, state, work.edges, work.edges_touched), old_(state.contacts.end()) {}
+      lines_(model, state, work.edges, work.edges_touched), old_(state.contacts.end()) {
+  facet_of_.fill(-1);
+}
 
 void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   go_to(3 * row.source);
@@ -48,12 +50,12 @@ const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
   const std::pair between = surface_.pairs.empty()
                                 ? std::pair(model_.blocks[block_a].body, model_.blocks[block_b].body)
                                 : std::pair(block_a, block_b);
-  if (law_.between != between) {
+  Law& law = laws_[static_cast<std::size_t>(between.first + between.second) % laws_.size()];
+  if (law.between != between) {
     const Joint* const joint = contact_joint(model_, block_a, block_b);
-    law_ = {between, joint,
-            std::min(geom::portable::tan(joint->friction_angle), work_.options.most_friction)};
+    law = {between, joint, std::min(geom::portable::tan(joint->friction_angle), work_.options.most_friction)};
   }
-  return law_;
+  return law;
 }
 
 double Evaluation::moved(const ContactRow& row) const {

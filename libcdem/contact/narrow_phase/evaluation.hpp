@@ -58,19 +58,35 @@ private:
   void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
   double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
-  // Motion of one side of a contact: the velocity that restitution uses, m/s, and the accelerations, m/s2, that the forces on
-  // its block can give it, and this contact its nodes. force: N, of this contact.
-  struct SideMotion {
-    geom::Vec3 velocity;
-    double acceleration = 0, local_acceleration = 0;
+  // What the contacts between two blocks share in a step.
+  struct BlockSide {
+    bool turns_round = false;            // else it is held
+    bool deforms = false;                // by itself or in pieces that do
+    bool in_one_piece = false;           // else its pieces move by themselves
+    double density = 0;                  // kg/m3
+    double acceleration = 0;             // m/s2, that the forces on the block can give it
+    const BlockMotion* motion = nullptr; // that restitution uses; null: that of the contact
   };
-  SideMotion motion_of_side(const ContactTriangle& side, const int* nodes, const double* weights, int count,
-                            double force) const;
+  struct BlockPair {
+    int source_block = -1, target_block = -1;
+    BlockSide source, target;
+    double omega_step = 0, felt_over_usual = 1; // as in ContactMotion
+    bool shares_friction = false;
+  };
+  BlockSide side_of(int block) const;
+  const BlockPair& pair_of(int source_block, int target_block);
+  // The velocity that restitution uses of one side of a contact, m/s.
+  geom::Vec3 velocity_of_side(const BlockSide&, const std::array<int, 4>& nodes,
+                              const std::array<double, 4>& weights) const;
+  // m/s2, that a contact of this force (N) can give its nodes on one side.
+  double local_acceleration(const BlockSide&, const ContactTriangle&, const std::array<int, 4>& nodes,
+                            const std::array<double, 4>& weights, double force) const;
   // Gives a contact that closes again what is left of its means.
   void go_on_if_opened(Contact&) const;
   // For restitution, of a contact before it advances. velocity: m/s, of its source past its target.
-  void set_approach(const Contact&, const ContactLaw&, const ContactArms&, const geom::Vec3& velocity,
-                    const ContactTriangle& from, const ContactTriangle& to, ContactMotion&) const;
+  void set_approach(const Contact&, const ContactLaw&, const BlockPair&, const ContactArms&,
+                    const geom::Vec3& velocity, const ContactTriangle& from, const ContactTriangle& to,
+                    ContactMotion&) const;
   // old: the contact before the step, null where there was none.
   void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
               const ContactTriangle& from, const ContactTriangle& to);
@@ -86,11 +102,12 @@ private:
   ContactChunk& out_;
   EdgeLines lines_;
   std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
-  Law law_;
+  std::array<Law, 8> laws_;                  // by the last bits of the numbers of both
+  std::array<BlockPair, 8> pairs_;
   std::array<std::vector<Nearest>, 3>
-      awake_;                   // of a row's semi-springs: their places on the targets that were looked at
-  std::array<Facet, 4> facets_; // by the last two bits of a triangle's number
-  std::array<int, 4> facet_of_{-1, -1, -1, -1};
+      awake_;                    // of a row's semi-springs: their places on the targets that were looked at
+  std::array<Facet, 64> facets_; // by the last bits of a triangle's number
+  std::array<int, 64> facet_of_;
 };
 
 } // namespace cdem

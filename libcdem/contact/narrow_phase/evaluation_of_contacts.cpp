@@ -9,51 +9,82 @@
 
 namespace cdem {
 
-Evaluation::SideMotion Evaluation::motion_of_side(const ContactTriangle& side, const int* nodes,
-                                                  const double* weights, int count, double force) const {
-  const int block = side.block;
-  geom::Vec3 place = geom::Vec3::Zero(), velocity = geom::Vec3::Zero();
-  double local = 0; // 1/kg
-  // kg, of the corner of the side's own tet: the contacts around a node have the mass of the node together.
-  const double density = model_.bodies[model_.blocks[block].body].material.density,
-               corner = density * side.area * side.height / 12;
-  for (int i = 0; i < count; ++i) {
-    place += weights[i] * place_of(model_, state_, nodes[i]);
-    velocity += weights[i] * velocity_of(state_, nodes[i]);
-    local += weights[i] * weights[i] / moving_mass(model_, state_)[nodes[i]] *
-             std::max(1.0, model_.node_mass[nodes[i]] / corner);
-  }
-  if (work_.travel.last_displacement[block] == 0)
-    return {velocity}; // held: it does not turn round
+Evaluation::BlockSide Evaluation::side_of(int block) const {
   const Block& b = model_.blocks[block];
-  const double mass = b.mass.volume * density;
-  SideMotion side_motion{velocity, work_.block_forces[block] / mass, b.rigid >= 0 ? 0 : force * local};
-  if (!is_in_one_piece(model_, work_, block))
-    side_motion.acceleration += side_motion.local_acceleration;
-  else if (work_.knows_motions) {
-    const BlockMotion& motion = work_.block_motion[block];
-    if (motion.whole)
-      side_motion.velocity = motion.velocity + motion.spin.cross(place - motion.centroid);
-  }
-  return side_motion;
+  BlockSide side;
+  side.turns_round = work_.travel.last_displacement[block] != 0;
+  side.deforms = b.rigid < 0;
+  side.in_one_piece = is_in_one_piece(model_, work_, block);
+  side.density = model_.bodies[b.body].material.density;
+  if (!side.turns_round)
+    return side;
+  side.acceleration = work_.block_forces[block] / (b.mass.volume * side.density);
+  if (side.in_one_piece && work_.knows_motions && work_.block_motion[block].whole)
+    side.motion = &work_.block_motion[block];
+  return side;
 }
 
-void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const ContactArms& arms,
-                              const geom::Vec3& velocity, const ContactTriangle& from,
-                              const ContactTriangle& to, ContactMotion& motion) const {
+const Evaluation::BlockPair& Evaluation::pair_of(int source_block, int target_block) {
+  BlockPair& pair = pairs_[static_cast<std::size_t>(source_block + target_block) % pairs_.size()];
+  if (pair.source_block != source_block || pair.target_block != target_block)
+    pair = {source_block,
+            target_block,
+            side_of(source_block),
+            side_of(target_block),
+            work_.step * frequency_on_contacts(model_, work_, source_block, target_block),
+            felt_over_usual(work_, source_block, target_block),
+            shares_friction(model_, work_, source_block, target_block)};
+  return pair;
+}
+
+geom::Vec3 Evaluation::velocity_of_side(const BlockSide& side, const std::array<int, 4>& nodes,
+                                        const std::array<double, 4>& weights) const {
+  geom::Vec3 sum = geom::Vec3::Zero(); // m/s, or m
+  for (int i = 0; i < 4; ++i)
+    if (weights[i] != 0)
+      sum += weights[i] * (side.motion ? place_of(model_, state_, nodes[i]) : velocity_of(state_, nodes[i]));
+  return side.motion ? side.motion->velocity + side.motion->spin.cross(sum - side.motion->centroid) : sum;
+}
+
+double Evaluation::local_acceleration(const BlockSide& side, const ContactTriangle& triangle,
+                                      const std::array<int, 4>& nodes, const std::array<double, 4>& weights,
+                                      double force) const {
+  if (!side.turns_round || !side.deforms)
+    return 0;
+  // kg, of the corner of the side's own tet: the contacts around a node have the mass of the node together.
+  const double corner = side.density * triangle.area * triangle.height / 12;
+  const std::vector<double>& mass = moving_mass(model_, state_);
+  double sum = 0; // 1/kg
+  for (int i = 0; i < 4; ++i)
+    if (weights[i] != 0)
+      sum += weights[i] * weights[i] / mass[nodes[i]] * std::max(1.0, model_.node_mass[nodes[i]] / corner);
+  return force * sum;
+}
+
+void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const BlockPair& pair,
+                              const ContactArms& arms, const geom::Vec3& velocity,
+                              const ContactTriangle& from, const ContactTriangle& to,
+                              ContactMotion& motion) const {
   const double force = law.kn * pressed_now(c, motion);
-  const SideMotion source = motion_of_side(from, arms.source.data(), arms.on_source.data(), 4, force),
-                   target = motion_of_side(to, arms.target.data(), arms.normal.data(), 4, force);
-  motion.acceleration = source.acceleration + target.acceleration;
+  const auto of_source = [&] {
+    return local_acceleration(pair.source, from, arms.source, arms.on_source, force);
+  };
+  const auto of_target = [&] { return local_acceleration(pair.target, to, arms.target, arms.normal, force); };
+  motion.acceleration = pair.source.acceleration + (pair.source.in_one_piece ? 0 : of_source()) +
+                        (pair.target.acceleration + (pair.target.in_one_piece ? 0 : of_target()));
   const double rests = part_at_rest(c), closing = -velocity.dot(motion.normal), // m/s
-      approach = (target.velocity - source.velocity).dot(motion.normal);
-  const double reversed = reversible_speed(c, motion);
+      approach = (velocity_of_side(pair.target, arms.target, arms.normal) -
+                  velocity_of_side(pair.source, arms.source, arms.on_source))
+                     .dot(motion.normal);
+  const double reversed = reversible_speed(c, motion, rests);
   motion.approach = part_of((1 - rests) * approach + rests * closing, reversed);
+  if (motion.approach >= 0)
+    return; // nothing is held
   // Bodies that part faster than that are no bodies at rest.
   motion.held_at_most = approach <= -reversed
                             ? 1
-                            : part_held(part_damped(c, law), closing, work_.step * motion.acceleration,
-                                        work_.step * (source.local_acceleration + target.local_acceleration));
+                            : part_held(part_damped(law, rests), closing, work_.step * motion.acceleration,
+                                        work_.step * (of_source() + of_target()));
 }
 
 void Evaluation::go_on_if_opened(Contact& c) const {
@@ -98,12 +129,13 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     else if (old && old->target != c.target)
       force.friction += target_change_loss(*old, law, motion);
     if (work_.damps && law.damps) {
-      motion.omega_step = work_.step * frequency_on_contacts(model_, work_, from.block, to.block);
-      motion.shares_friction = shares_friction(model_, work_, from.block, to.block);
-      motion.felt_over_usual = felt_over_usual(work_, from.block, to.block);
+      const BlockPair& pair = pair_of(from.block, to.block);
+      motion.omega_step = pair.omega_step;
+      motion.shares_friction = pair.shares_friction;
+      motion.felt_over_usual = pair.felt_over_usual;
       if (!old)
         go_on_if_opened(c);
-      set_approach(c, law, arms, velocity, from, to, motion);
+      set_approach(c, law, pair, arms, velocity, from, to, motion);
     }
     const ContactLoss loss = advance(c, law, motion);
     force.friction += loss.friction;

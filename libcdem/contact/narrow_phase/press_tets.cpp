@@ -301,7 +301,7 @@ private:
     motion.step = work_.step;
     motion.acceleration = acceleration;
     motion.omega_step = work_.step * std::sqrt(acceleration / pressed_now(c, motion));
-    motion.approach = part_of(closing, work_.step * reversible_speed(c, motion));
+    motion.approach = part_of(closing, work_.step * reversible_speed(c, motion, part_at_rest(c)));
     motion.held_at_most = part_held(law.damping_ratio, closing, 0, work_.step * work_.step * acceleration);
   }
 

@@ -140,19 +140,23 @@ inline double part_at_rest(const Contact& c) {
 }
 
 // b of restitution.
+inline double part_damped(const ContactLaw& law, double rests) {
+  return law.damps_more_at_rest ? law.damping_ratio + (1 - law.damping_ratio) * rests : law.damping_ratio;
+}
 inline double part_damped(const Contact& c, const ContactLaw& law) {
-  return law.damps_more_at_rest ? law.damping_ratio + (1 - law.damping_ratio) * part_at_rest(c)
-                                : law.damping_ratio;
+  return part_damped(law, law.damps_more_at_rest ? part_at_rest(c) : 0);
 }
 
-// q, m: how far the contact has been pressed while its bodies approached.
-inline double pressed_by_approach(const Contact& c, const ContactLaw& law) {
-  const double part = part_damped(c, law);
+// q, m: how far the contact has been pressed while its bodies approached. part: part_damped.
+inline double pressed_by_approach(const Contact& c, const ContactLaw& law, double part) {
   return c.damping > 0 && part > 0 ? c.damping / (part * law.kn) : 0;
 }
 // J, stored in the force of restitution.
+inline double stored_by_damping(const Contact& c, double pressed_by_approach) {
+  return 0.5 * std::max(0.0, c.damping) * pressed_by_approach;
+}
 inline double stored_by_damping(const Contact& c, const ContactLaw& law) {
-  return 0.5 * std::max(0.0, c.damping) * pressed_by_approach(c, law);
+  return c.damping > 0 ? stored_by_damping(c, pressed_by_approach(c, law, part_damped(c, law))) : 0;
 }
 
 // Part of the damping force, up to 1, that turns nothing round. It takes no more than 0.15 of the speed of the nodes at the contact
@@ -164,8 +168,8 @@ inline double part_held(double damped, double speed, double by_bodies, double by
 }
 
 // m/s, v0 of restitution, of a contact before it advances.
-inline double reversible_speed(const Contact& c, const ContactMotion& m) {
-  return std::max(m.step * m.acceleration, part_at_rest(c) * std::sqrt(m.acceleration * pressed_now(c, m)));
+inline double reversible_speed(const Contact& c, const ContactMotion& m, double rests) {
+  return std::max(m.step * m.acceleration, rests * std::sqrt(m.acceleration * pressed_now(c, m)));
 }
 
 // Advances the means of restitution.
@@ -181,16 +185,17 @@ inline void advance_rest(Contact& c, const ContactMotion& m) {
 // Advances the force of restitution of a contact that is as deep as it is now, and its means. closing: m, in the step.
 // Returns what it took, J, by the trapezoidal rule; what opens further than q leaves the spring at 0.
 inline double advance_damping(Contact& c, const ContactLaw& law, const ContactMotion& m, double closing) {
-  const double before = c.damping, q = pressed_by_approach(c, law), stored = stored_by_damping(c, law);
+  const double before = c.damping, q = before > 0 ? pressed_by_approach(c, law, part_damped(c, law)) : 0,
+               stored = stored_by_damping(c, q);
   advance_rest(c, m);
-  const double stiffness = part_damped(c, law) * law.kn, pressed = c.effective_penetration();
+  const double part = part_damped(c, law), stiffness = part * law.kn, pressed = c.effective_penetration();
   if (m.approach >= 0)
     c.damping = stiffness * std::clamp(q + closing, 0.0, m.approach * pressed);
   else
     c.damping = closing < 0 ? -stiffness * pressed * std::min(-m.approach, m.held_at_most) : 0;
   return 0.5 * before * (before > 0 ? std::max(closing, -q) : closing) +
          0.5 * c.damping * (c.damping > 0 ? std::max(closing, -q) : closing) + stored -
-         stored_by_damping(c, law);
+         stored_by_damping(c, pressed_by_approach(c, law, part));
 }
 
 // N, of the contact on its source.
@@ -267,7 +272,8 @@ inline double energy(const Contact& c, const ContactLaw& law) {
 // force in that step. The normal spring loses nothing if the contact opened.
 inline double end_loss(const Contact& c, const ContactLaw& law, const geom::Vec3& slid) {
   const double pressed = c.effective_penetration(), opened = std::min(slid.dot(c.normal), pressed);
-  const double of_damping = c.damping > 0 ? std::min(opened, pressed_by_approach(c, law)) : opened;
+  const double of_damping =
+      c.damping > 0 ? std::min(opened, pressed_by_approach(c, law, part_damped(c, law))) : opened;
   return 0.5 * law.kn * pressed * (pressed - opened) + stored_by_damping(c, law) -
          0.5 * c.damping * of_damping +
          (law.ks > 0 ? 0.5 * c.shear.squaredNorm() / law.ks - 0.5 * c.shear.dot(slid) : 0);
