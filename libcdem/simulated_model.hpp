@@ -24,7 +24,7 @@ struct SimulatedModel {
   State last_good;
   Conditions conditions;
   RunLog log;
-  SlidingFriction sliding; // in this process: a script that is resumed counts anew
+  SlidingFriction sliding;
   std::shared_ptr<Observer> observer;
   int threads = 1;
   int stage = 0;            // solving calls so far, with the one that runs

@@ -46,9 +46,12 @@ CDEM_ARCHIVE(CrackSide, block, nodes, parted)
 CDEM_ARCHIVE(AskedWater, block, first_node, time, nodes, cracks, bared)
 CDEM_ARCHIVE(FlowPatterns::OfFlow, forces, corners, asked)
 CDEM_ARCHIVE(FlowPatterns, flows)
+CDEM_ARCHIVE(SlidingFriction::Sums, law, done, path, slip, contact, span, time, hops, end, way, turned, size,
+             looks, joint)
+CDEM_ARCHIVE(SlidingFriction, of_blocks, blocks, seen, told)
 CDEM_ARCHIVE(RestartPoint, step, begun, breaks, wall_time, tension_before, shear_before, loop_state,
              previous_force, spring_force, stretch, viscous, one_way, contact_step, strain_step, near, slid,
-             flows, procedure_state)
+             flows, sliding, procedure_state)
 CDEM_ARCHIVE(SimulatedModel::End, point, step_choice, with_other_conditions)
 
 StageContext StageSequence::next() {
@@ -120,6 +123,7 @@ RestartPoint StageSequence::take_up(RestartPoint point) {
   of_.kept = of_.last_good;
   point.broken_tension_before = of_.log.broken_tension;
   point.broken_shear_before = of_.log.broken_shear;
+  of_.sliding.seen = point.sliding.seen;
   go_back(of_.log, of_.kept.step, point.breaks, point.one_way);
   if (checkpoints_)
     checkpoints_->marked();
@@ -158,6 +162,7 @@ std::string StageSequence::save() const {
   archive_const(a, midway);
   if (midway)
     archive_const(a, *point);
+  archive_const(a, midway ? point->sliding : of_.sliding);
   return a.take();
 }
 
@@ -224,6 +229,7 @@ void StageSequence::restore(std::string_view saved, bool state_only) {
   of_.stage = stage;
   of_.log = std::move(log);
   archive(a, from_);
+  archive(a, of_.sliding);
   if (from_)
     require_whole(of_.model, of_.log, *from_);
 }

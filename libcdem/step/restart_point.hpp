@@ -12,6 +12,7 @@
 #include "libcdem/load/flow_patterns.hpp"
 #include "libcdem/parallel/node.hpp"
 #include "libcdem/results/one_way_energies.hpp"
+#include "libcdem/step/sliding_friction.hpp"
 #include "libgeom/core/types.hpp"
 
 #include <cstdint>
@@ -36,6 +37,7 @@ struct RestartPoint {
   std::vector<std::uint8_t> near; // NearStrength::bits; empty: unknown
   std::vector<int> slid;          // interfaces to renew before the next step
   FlowPatterns flows;             // as they were found last
+  SlidingFriction sliding;
   // For a stage of several loops: the data of the procedure around the loops, and the number of the running loop, as
   // the procedure has written them.
   std::string procedure_state;

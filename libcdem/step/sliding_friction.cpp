@@ -17,6 +17,9 @@
 namespace cdem {
 namespace {
 
+// A hop lasts for fewer looks; a body that is thrown flies for longer.
+constexpr double looks_of_a_hop = 10;
+
 bool deforms(const Model& model, int block) {
   return model.blocks[block].rigid < 0;
 }
@@ -73,23 +76,35 @@ Touch of_spring(const Model& model, const State& state, const BondWork& bonds, i
 } // namespace
 
 void SlidingFriction::look(const Model& model, const State& state, const BondWork& bonds,
-                           const std::vector<char>& broken, double time) {
+                           const std::vector<char>& broken) {
+  const double time = state.time - std::exchange(seen, state.time); // s
   if (std::exchange(blocks, model.blocks.size()) != model.blocks.size())
     of_blocks.clear(); // they have other numbers
   std::map<int, BlockMotion> motions;
-  const auto velocity = [&](int block, const geom::Vec3& place) -> geom::Vec3 {
+  const auto motion_of_block = [&](int block) -> const BlockMotion& {
     const auto [entry, fresh] = motions.try_emplace(block);
-    BlockMotion& motion = entry->second;
     if (fresh)
-      motion = motion_of(model, state, model.blocks[block]);
+      entry->second = motion_of(model, state, model.blocks[block]);
+    return entry->second;
+  };
+  const auto velocity = [&](int block, const geom::Vec3& place) -> geom::Vec3 {
+    const BlockMotion& motion = motion_of_block(block);
     return motion.velocity + motion.spin.cross(place - motion.centroid);
   };
-  std::map<std::array<int, 2>, Sums> now;
+  struct Now {
+    Sums sums;
+    double pressed = 0;                  // N s
+    geom::Vec3 way = geom::Vec3::Zero(); // N s m
+  };
+  std::map<std::array<int, 2>, Now> now;
   const auto add = [&](const Touch& t) -> Sums& {
     const auto along = [&](const geom::Vec3& v) -> geom::Vec3 { return v - v.dot(t.normal) * t.normal; };
     const geom::Vec3 v = along(velocity(t.source, t.place) - velocity(t.target, t.place)), w = along(t.past);
     const double normal = time * t.pressed, limit = t.tan_friction * normal;
-    Sums& sums = now[std::array<int, 2>{std::min(t.source, t.target), std::max(t.source, t.target)}];
+    Now& of_pair = now[std::array<int, 2>{std::min(t.source, t.target), std::max(t.source, t.target)}];
+    of_pair.pressed += normal;
+    of_pair.way += (t.source < t.target ? normal : -normal) * time * v;
+    Sums& sums = of_pair.sums;
     sums.law += (t.source < t.target ? limit : -limit) * v;
     sums.done -= time * t.shear.dot(v);
     sums.path += limit * v.norm();
@@ -121,10 +136,15 @@ void SlidingFriction::look(const Model& model, const State& state, const BondWor
       add(of_spring(model, state, bonds, p, turn)).joint = true;
     }
   }
-  for (const auto& [pair, sums] : now) {
-    if (!std::isfinite(sums.path))
+  for (const auto& [pair, found] : now) {
+    const Sums& sums = found.sums;
+    if (!std::isfinite(sums.path) || !(found.pressed > 0))
       continue;
     Sums& all = of_blocks[pair];
+    if (all.time == 0)
+      all.size = std::cbrt(std::min(model.blocks[pair[0]].mass.volume, model.blocks[pair[1]].mass.volume));
+    else if (const double open = state.time - time - all.end; open > 0 && open < looks_of_a_hop * time)
+      all.hops += open;
     if (sums.path > 0.01 * all.path)
       ++all.looks;
     all.law += sums.law;
@@ -134,6 +154,9 @@ void SlidingFriction::look(const Model& model, const State& state, const BondWor
     all.contact += sums.contact;
     all.span += sums.span;
     all.time += time;
+    all.end = state.time;
+    all.way += found.way / found.pressed;
+    all.turned += time * (motion_of_block(pair[0]).spin - motion_of_block(pair[1]).spin);
     all.joint = all.joint || sums.joint;
   }
 }

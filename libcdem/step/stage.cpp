@@ -117,6 +117,8 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away, Kep
       take_tet_pairs(context_.model, context_.state, std::move(kept->tet_contacts), work.contact);
   }
   shares_.share(moving());
+  if (context_.sliding && !(context_.from && context_.from->begun))
+    context_.sliding->seen = context_.state.time;
   if (context_.from)
     go_on_from(*context_.from);
   else
@@ -249,7 +251,6 @@ void Stage::look_at_sliding() {
   if (!in_real_time || !context_.sliding ||
       std::none_of(blocks.begin(), blocks.end(), [](const Block& b) { return b.rigid < 0; }))
     return;
-  const double since = std::exchange(sliding_seen_, context_.state.time);
   const Range own = work.shared->shares().points();
   const std::vector<std::uint8_t>& modes = context_.state.bond_mode;
   const bool dry = ranks().any(std::any_of(modes.begin() + own.begin, modes.begin() + own.end,
@@ -259,8 +260,7 @@ void Stage::look_at_sliding() {
   see_whole();
   if (dry)
     shares_.gather(work.bond);
-  context_.sliding->look(context_.model, context_.state, work.bond, work.contact.fragments.broken,
-                         context_.state.time - since);
+  context_.sliding->look(context_.model, context_.state, work.bond, work.contact.fragments.broken);
 }
 
 // Contact is told of the bonds of a block when a face is handed over, or an interface left to contact, of it or of those that

@@ -165,7 +165,6 @@ private:
   BegunCracks begun_;     // in this step
   std::vector<int> slid_; // interfaces to renew before the next step
   bool begins_ = true;    // no step of this stage, or of one that it goes on from, has been made before
-  double sliding_seen_ = context_.state.time; // s, when look_at_sliding looked last
   bool kept_end_ = false;
   bool contacts_as_kept_ = false; // none has been looked at since the end was kept
   struct Good { // Workspace::strain_step (s) and the log, as they were for the state that was kept last

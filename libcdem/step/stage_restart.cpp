@@ -76,6 +76,8 @@ void Stage::note(RestartPoint& point, std::vector<double> loop_state) const {
   point.near = work.near.crack_known ? near_of_all_ranks(work) : std::vector<std::uint8_t>();
   point.slid = slid_;
   point.flows = flow_patterns(work.resolved);
+  if (context_.sliding)
+    point.sliding = *context_.sliding;
 }
 
 void Stage::keep_last_good() {

@@ -1,5 +1,5 @@
 // What a script is warned of where bodies meet, or never do.
-#include "tests/lua/script.hpp"
+#include "tests/lua/stopped_script.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -108,6 +108,7 @@ m:run{ duration = 0.1 }
   CHECK_THAT(vibrates[0],
              Contains("contact of \"floor\" and \"plate\": they slide, and friction has done 0."));
   const std::string relaxed = "m:relax{ residual = 1e-6 }";
+  CHECK(told(1, 60, 62, relaxed).size() == 1); // it bounces
   CHECK(told(0.5, 30, 33, relaxed).empty());
   CHECK(told(1, 30, 33, relaxed).empty());
   CHECK(told(1, 30, 25, relaxed).empty()); // it stands
@@ -163,4 +164,59 @@ m:fix{ on = "floor", velocity = {0.3 * 9.81 / omega, 0, 0},
 m:run{ duration = 0.5 }
 )");
   CHECK(those_with(told, "they slide").empty());
+}
+
+TEST_CASE("a body that is thrown, bounces and rolls is not told of as one that slides", "[lua][contact]") {
+  const auto told =
+      [](const std::string& restitution, const std::string& velocity) {
+        return those_with(warnings_of(R"(
+local cdem = require "cdem"
+local stone = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local floor = cdem.box_mesh{ size = {8, 4, 0.5}, divisions = {4, 2, 1}, origin = {-1, -2, -0.5} }
+local cube = cdem.box_mesh{ size = {0.4, 0.4, 0.4}, divisions = {1, 1, 1}, origin = {0, 0, 0.1} }
+local m = cdem.model{ bodies = { { name = "floor", material = stone, element = "rigid", shape = floor },
+                                 { name = "cube", material = stone, shape = cube } },
+                      contacts = { { "floor", "cube", cdem.coulomb{ friction_angle = 35,
+                                                                   restitution = )" +
+                                      restitution + R"( } } } }
+m:fix{ on = "floor" }
+m:gravity{ vector = {0, 0, -9.81} }
+m:initial_velocity{ on = "cube", )" + velocity +
+                                      R"( }
+m:run{ duration = 0.8 }
+)"),
+                          "they slide");
+      };
+  CHECK(told("0.5", "velocity = {2, 0, 0}").empty());
+  CHECK(told("0.3", "velocity = {2, 0, 0}, angular_velocity = {0, 8, 0}, about = {0.2, 0.2, 0.3}").empty());
+}
+
+TEST_CASE("a resumed script tells of the same sliding", "[lua][contact]") {
+  const std::string slides = R"(
+local cdem = require "cdem"
+local stone = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local m = cdem.model{ bodies = {
+  { name = "floor", material = stone, shape = cdem.box{ size = {4, 2, 1}, origin = {-1.5, -0.5, -1} } },
+  { name = "block", material = stone, shape = cdem.box{ size = {1, 1, 0.25} } } },
+  contacts = { { "floor", "block", cdem.coulomb{ friction_angle = 40 } } } }
+m:fix{ on = "floor" }
+m:gravity{ vector = {9.81 * math.sin(math.rad(43)), 0, -9.81 * math.cos(math.rad(43))} }
+m:run{ duration = 0.05 }
+m:run{ duration = 0.05 }
+)";
+  const auto told = [](const StoppedScript& script) { // without the name of its folder
+    std::vector<std::string> lines = those_with(script.listener->lines, "of the work that its law asks for");
+    for (std::string& line : lines)
+      line.erase(0, line.find("warning: "));
+    return lines;
+  };
+  StoppedScript whole(slides), broken(slides);
+  const int looks = whole.count_looks();
+  const std::vector<std::string> once = told(whole);
+  REQUIRE(once.size() == 1);
+  REQUIRE_FALSE(broken.ends_before(looks / 3)); // before anything is told
+  REQUIRE(told(broken).empty());
+  broken.go_on_from_newest();
+  broken.run();
+  CHECK(told(broken) == once);
 }

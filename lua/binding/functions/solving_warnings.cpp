@@ -162,25 +162,28 @@ namespace {
 
 // Tells once of two bodies that slide with less friction than their law gives.
 void warn_of_sliding(Session& session, ModelObject& model, const Stage& stage) {
-  const auto& all = model.simulation.sliding().of_blocks;
+  const SlidingFriction& sliding = model.simulation.sliding();
   const std::vector<Block>& blocks = model.simulation.model().blocks;
-  if (stage.kind != "run" || model.simulation.sliding().blocks != blocks.size())
+  if (stage.kind != "run" || sliding.blocks != blocks.size())
     return;
   const double least = 1e-3 * model.simulation.energy().scale(); // J
-  for (const auto& [pair, sums] : all) {
+  for (const auto& [pair, sums] : sliding.of_blocks) {
     const double law = sums.law.norm();
     std::array<int, 2> bodies{blocks[pair[0]].body, blocks[pair[1]].body};
     std::sort(bodies.begin(), bodies.end());
-    if (sums.slides() && law > least && sums.done < 0.985 * law && model.told_sliding.insert(bodies).second) {
+    if (sums.slides() && law > least && sums.done < 0.985 * law &&
+        std::find(sliding.told.begin(), sliding.told.end(), bodies) == sliding.told.end()) {
+      sliding.told.push_back(bodies);
       const std::string advice =
           !sums.joint ? "the contact a restitution of 0.5 or less, or the materials stiffness_damping"
                       : "the materials a stiffness_damping of 0.05 h sqrt(density / youngs_modulus), h the "
                         "size of a block; blocks of small strain have none: leave their element out";
-      session.warn(of_stage(stage) + shown_pair(model.body_names[bodies[0]], model.body_names[bodies[1]]) +
-                   ": they slide, and friction has done " + three_digits(sums.done / law) +
-                   " of the work that its law asks for: while a sole vibrates, the slip of some of its "
-                   "points reverses and others stick; start the load slowly or with model:relax, and give " +
-                   advice);
+      session.warn(
+          of_stage(stage) + shown_pair(model.body_names[bodies[0]], model.body_names[bodies[1]]) +
+          ": they slide, and friction has done " + three_digits(sums.done / law) +
+          " of the work that its law asks for: while a sole vibrates or bounces, the slip of some of its "
+          "points reverses and others stick; start the load slowly or with model:relax, and give " +
+          advice);
     }
   }
 }

@@ -31,7 +31,6 @@ Value copy(Session& session, ModelObject& model, const Arguments&) {
   other->piles = model.piles;
   other->unjointed = model.unjointed;
   other->failing_since = model.failing_since;
-  other->told_sliding = model.told_sliding;
   other->places = model.places;
   other->number = static_cast<int>(session.models.size()) + 1;
   if (session.checkpoints.keeps())

@@ -9,7 +9,6 @@
 #include "libgeom/placement/pile.hpp"
 
 #include <array>
-#include <set>
 
 namespace cdem::script {
 
@@ -36,7 +35,6 @@ struct ModelObject final : Object {
   } written;            // of the history, as its file stands
   double told_open = 0; // energy balance that the user was warned of
   std::string told_slivers;
-  std::set<std::array<int, 2>> told_sliding; // bodies that slide with less than their friction
   int failing_since =
       0; // stage whose relaxation found that the model runs away; 0: none, or it has come to rest since
   bool solving = false;         // a callback of a stage may look and not touch
