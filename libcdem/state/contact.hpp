@@ -61,9 +61,11 @@ inline auto key(const OpenedContact& opened) {
   return key(opened.last);
 }
 
+// Those of one key, as fragments that are numbered anew may leave, stay in their order.
 template <class Kept>
 void sort_by_key(std::vector<Kept>& contacts) {
-  std::sort(contacts.begin(), contacts.end(), [](const Kept& a, const Kept& b) { return key(a) < key(b); });
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Kept& a, const Kept& b) { return key(a) < key(b); });
 }
 
 } // namespace cdem
