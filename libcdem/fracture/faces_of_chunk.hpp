@@ -33,7 +33,7 @@ public:
   RockStrength rock(int face) const {
     return rocks_.of(joints.law(face), joints.tensile_strength(face), joints.cohesion(face));
   }
-  // Of a face that holds: a crack that did not continue took the rest, at most the part that may_end allows.
+  // What a face that holds has left: a crack that did not continue took the rest, at most the part that may_end allows.
   RockStrength rock_left(int face) const {
     RockStrength left = rock(face);
     if (stage(face) == FaceStage::resumed)

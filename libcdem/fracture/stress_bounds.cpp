@@ -26,7 +26,7 @@ CDEM_INLINE bool beyond_any(const simd::Oct (&s)[6], const UtilisationBound* bou
 CDEM_INLINE void near_kernel(const StressBatch* stress, const StressBatch* before, std::int64_t count,
                              const UtilisationBound* bounds, int bound_count, double harmless,
                              double steps_ahead, std::uint8_t* bits) {
-  // |s + a d|^2 <= 2 |s|^2 + 2 a^2 |d|^2, and twice what stands off the diagonal.
+  // |s + a d|^2 <= 2 |s|^2 + 2 a^2 |d|^2, and twice the part off the diagonal.
   const double of_rise = steps_ahead * steps_ahead;
   const simd::Oct most = simd::Oct{} + harmless;
   for (std::int64_t i = 0; i < count; ++i) {

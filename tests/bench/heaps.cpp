@@ -15,7 +15,7 @@ namespace {
 using namespace cdem;
 
 constexpr double block_size = 0.25, speed = 2; // m, m/s
-// Of steps: between two that are counted, and counted, while faces part everywhere and later.
+// Each phase has steps that pass uncounted and then counted ones; faces part everywhere in the first, in fewer places in the second.
 constexpr std::int64_t uncounted = 250, counted = 250;
 constexpr std::array<const char*, 2> phases{"parts", "flies"};
 

@@ -86,17 +86,16 @@ void check_plastic(const Model& model) {
 // A mesh with cohesive faces or laws of regions has a region for each tet, the first a mark for each node.
 void check_cohesive(const Model& model) {
   const MeshData& mesh = model.mesh;
-  for (const Block& block : model.blocks)
-    if (block.meshed && !model.bodies[block.body].region_laws.empty())
+  for (const Block& block : model.blocks) {
+    const Body& body = model.bodies[block.body];
+    const bool cohesive = body.bonding.is_cohesive();
+    if (block.meshed && (cohesive || !body.region_laws.empty()))
       require(block.tet_end - mesh.first_tet <= count(mesh.region.size()), "mesh.region",
               count(mesh.region.size()));
-  for (const Block& block : model.blocks)
-    if (block.meshed && model.bodies[block.body].bonding.is_cohesive()) {
-      require(block.tet_end - mesh.first_tet <= count(mesh.region.size()), "mesh.region",
-              count(mesh.region.size()));
+    if (block.meshed && cohesive)
       require(block.node_end - mesh.first_node <= count(mesh.freed.size()), "mesh.freed",
               count(mesh.freed.size()));
-    }
+  }
   require(mesh.region.size() <= mesh.tet_slot.size(), "mesh.region", count(mesh.region.size()));
   require(mesh.freed.size() <= mesh.original.size(), "mesh.freed", count(mesh.freed.size()));
   all_below("mesh.original", mesh.original, mesh.original.size());

@@ -9,7 +9,7 @@ namespace cdem {
 
 void find_contact_fragments(const Model&, const State&, ContactFragments&);
 
-// Of a fragment, by its number; -1: of a whole block.
+// Whether a fragment of a broken block is more than a single tet. number: its own; -1: a whole block, which is no such fragment.
 inline bool of_several_tets(const ContactFragments& fragments, int number) {
   return number >= 0 && fragments.triangles_of_tet[number][0] < 0;
 }

@@ -75,7 +75,7 @@ private:
     const int fragment = work_.fragments.of_triangle[source_triangle(static_cast<int>(target))];
     return {kind_ == Contact::spring ? 0 : block(static_cast<int>(target)), fragment};
   }
-  // Of edges of a block: by how much their numbers are larger now.
+  // By how much the numbers of a block's edges are larger now; 0 for triangles.
   int shift(int block) const {
     return kind_ == Contact::edge && !renewed_.edge_shift.empty() ? renewed_.edge_shift[block] : 0;
   }

@@ -61,7 +61,7 @@ bool leads_into_both(const Model&, const State&, const ContactEdge& e, const Con
 std::array<geom::Vec3, 2> into_faces(const Model&, const State&, const ContactEdge&, const geom::Vec3& x0,
                                      const geom::Vec3& x1);
 
-// Of two nearly parallel edges, out of the second one's body: from the middle of the first fan to that of the second, at right
+// The normal of two nearly parallel edges, out of the second one's body: from the middle of the first fan to that of the second, at right
 // angles to `along` (unit).
 geom::Vec3 way_between_fans(const std::array<geom::Vec3, 2>& into_e, const std::array<geom::Vec3, 2>& into_f,
                             const geom::Vec3& along);
