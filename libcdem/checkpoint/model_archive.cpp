@@ -80,7 +80,7 @@ void archive(A& a, MeshData& x) {
               original, region, freed, plastic_law, share_begin, shares, boundary);
 }
 
-CDEM_ARCHIVE(ContactTriangle, nodes, block, tet, face, mate, area, height, compliance)
+CDEM_ARCHIVE(ContactTriangle, nodes, block, tet, face, mate, left, area, height, compliance)
 CDEM_ARCHIVE(ContactEdge, nodes, triangles, corner)
 CDEM_ARCHIVE(BlockPairLaw, blocks, joint)
 CDEM_ARCHIVE(ContactSurface, triangles, edges, block_begin, usual_height, original, joint, within, left_by,

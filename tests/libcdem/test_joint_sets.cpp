@@ -200,6 +200,53 @@ TEST_CASE("a law that varies from place to place holds each interface by its own
   CHECK(broken_under(1.2e6) == s.counts().bonds / 5); // the first joint only, which then carries nothing on
 }
 
+// Rows of three blocks, parted by a dry cut of 30 degrees; what holds the blocks of a row is told by `rest`.
+cdem::Simulation rows(const cdem::Joint& rest) {
+  cdem::BodySpec body;
+  body.name = "rows";
+  geom::PlaneCutOptions options;
+  options.name = "shear";
+  body.shape = geom::cut_by_plane(geom::grid({0.75, 0.25, 0.5}, {3, 1, 1}),
+                                  geom::Plane::through({0, 0, 0.25}, {0, 0, 1}), options);
+  body.material = rock();
+  body.material.youngs_modulus = 10e9;
+  body.joint = rest;
+  cdem::Joint dry;
+  dry.bonded = false;
+  dry.friction_angle = 30 * degree;
+  dry.normal_stiffness = dry.shear_stiffness = 20e9;
+  body.set_joints["shear"] = dry;
+  cdem::ModelSpec spec;
+  spec.bodies = {body};
+  return cdem::Simulation(spec, 1, nullptr);
+}
+
+TEST_CASE("blocks that slide along a cut onto others keep the friction of the cut", "[joint_sets]") {
+  cdem::Joint weak = with_strength(50e6);
+  weak.friction_angle = 10 * degree;
+  const cdem::Joint rest = GENERATE_COPY(cdem::glued_joint(), weak);
+  cdem::Simulation s = rows(rest);
+  const cdem::Selection top = cdem::Selection::in_box({{0, 0, 0.26}, {0.75, 0.25, 0.5}});
+  s.fix(fixed(cdem::Selection::side("z-")));
+  s.fix(fixed(cdem::Selection::side("y-"), "y"));
+  s.fix(fixed(cdem::Selection::side("y+"), "y"));
+  s.traction(traction(cdem::Selection::side("z+"), {0, 0, -1e6}));
+  const auto push = [&](double by, int times) {
+    for (int i = 0; i < times; ++i) {
+      cdem::Fix pushed = fixed(top, "x");
+      pushed.displacement = {s.mean("displacement.x", top) + by, 0, 0};
+      s.fix(pushed);
+      cdem::RelaxOptions options;
+      options.residual = 1e-5;
+      s.relax(options);
+    }
+  };
+  push(1e-3, 20);
+  push(2e-5, 10); // friction follows the last increments
+  const Vec3 bears = s.reaction(cdem::Selection::side("z-"));
+  CHECK(-bears.x() / bears.z() == Approx(std::tan(30 * degree)).epsilon(0.02));
+}
+
 TEST_CASE("blocks that part where the law varies meet with the friction it had there", "[joint_sets]") {
   cdem::BodySpec body;
   body.name = "rock";

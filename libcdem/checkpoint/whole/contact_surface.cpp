@@ -39,6 +39,7 @@ void check_surface(const Model& model) {
             "surface.triangles.tet", triangle.tet);
     below("surface.triangles.face", triangle.face, model.mesh.faces.size() * lanes, -1);
     below("surface.triangles.mate", triangle.mate, triangles, -1);
+    below("surface.triangles.left", triangle.left, model.joints.size(), -1);
   }
   for (const ContactEdge& edge : surface.edges) {
     all_below("surface.edges.nodes", edge.nodes, nodes);

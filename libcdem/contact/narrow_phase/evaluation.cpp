@@ -6,7 +6,6 @@
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
-#include "libcdem/model/build/contact_surface.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <algorithm>
@@ -46,13 +45,14 @@ void Evaluation::springs(ContactRow& row, ContactCandidate* candidates) {
   row.reach = std::max(shallow, std::min(row.reach, static_cast<float>(reach_over_depth * deepest)));
 }
 
-const Evaluation::Law& Evaluation::law_between(int block_a, int block_b) {
-  const std::pair between = surface_.pairs.empty()
-                                ? std::pair(model_.blocks[block_a].body, model_.blocks[block_b].body)
-                                : std::pair(block_a, block_b);
-  Law& law = laws_[static_cast<std::size_t>(between.first + between.second) % laws_.size()];
+const Evaluation::Law& Evaluation::law_between(const TrianglesOfSide& from, const TrianglesOfSide& to) {
+  const int block_a = surface_.triangles[from[0]].block, block_b = surface_.triangles[to[0]].block;
+  const std::array between = surface_.pairs.empty()
+                                 ? std::array{model_.blocks[block_a].body, model_.blocks[block_b].body, -1}
+                                 : std::array{block_a, block_b, law_left_between(model_, from, to)};
+  Law& law = laws_[static_cast<std::size_t>(between[0] + between[1]) % laws_.size()];
   if (law.between != between) {
-    const Joint* const joint = contact_joint(model_, block_a, block_b);
+    const Joint* const joint = contact_joint(model_, from, to);
     law = {between, joint, std::min(geom::portable::tan(joint->friction_angle), work_.options.most_friction)};
   }
   return law;
@@ -410,7 +410,7 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   motion.turned =
       0.5 * work_.step *
       (spin(x, velocities(from.nodes), motion.normal) + spin(y.x, velocities(to.nodes), motion.normal));
-  const Law& between = law_between(from.block, to.block);
+  const Law& between = law_between({source, source}, {nearest.target, nearest.target});
   ContactLaw law = spring_law(model_, *between.joint, between.tan_friction, from, to);
   // It keeps the stiffness with which it began: under another triangle of the target its energy would jump.
   c.stiffness = old ? old->stiffness : law.kn;

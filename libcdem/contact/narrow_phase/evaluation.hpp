@@ -6,6 +6,7 @@
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/contact/narrow_phase/edge_lines.hpp"
 #include "libcdem/contact/response/contact_law.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/state/state.hpp"
 
 namespace cdem {
@@ -20,13 +21,14 @@ public:
   void edges(ContactRow&, ContactCandidate*);
 
 private:
-  // Contact law of two blocks. between: their bodies, or the blocks themselves where some have a law of their own.
+  // Contact law of two sides. between: their bodies, or their blocks and the law that a joint at them left,
+  // where some have one.
   struct Law {
-    std::pair<int, int> between{-1, -1};
+    std::array<int, 3> between{-1, -1, -1};
     const Joint* joint = nullptr;
     double tan_friction = 0;
   };
-  const Law& law_between(int block_a, int block_b);
+  const Law& law_between(const TrianglesOfSide& from, const TrianglesOfSide& to);
   // m, both blocks together, since the search; or what the pair has moved.
   double moved(const ContactRow&) const;
   // m, what is found now and is d away waits until `moved` is from + d.

@@ -72,20 +72,18 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
   };
   std::vector<Sums> on_rigid(model.rigid.size());
   BlockOfTriangle of_source(model.surface), of_target(model.surface);
-  std::uint64_t last = 0;
-  const Joint* joint = nullptr;
+  std::uint64_t last = 0; // no pair: its blocks differ
   PairForces* pair = nullptr;
   for (const Contact& c : state.contacts) {
     if (c.kind == Contact::tets) // within a block
       continue;
     const auto [source, target] = triangles_of(c);
     const int a = of_source(source), b = of_target(target);
-    if (joint == nullptr || last != pair_of(a, b)) { // contacts of a pair stand side by side
+    if (last != pair_of(a, b)) { // contacts of a pair stand side by side
       last = pair_of(a, b);
-      joint = contact_joint(model, a, b);
       pair = shares_friction(model, work, a, b) ? &work.pair_forces[last] : nullptr;
     }
-    const double stiffness = c.effective_penetration() > 0 ? normal_stiffness_of(model, *joint, c) : 0,
+    const double stiffness = c.effective_penetration() > 0 ? normal_stiffness_of(model, c) : 0,
                  force = stiffness * c.effective_penetration();
     if (stiffness > 0 && pair) {
       const double rests = part_at_rest(c);

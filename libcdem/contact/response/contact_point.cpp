@@ -140,6 +140,13 @@ ContactLaw law_between(const Model& model, const Joint& joint, double tan_fricti
                             : edge_law(model, joint, tan_friction, {source, c.fragment}, {target, c.beside}));
 }
 
+// Of a spring or an edge.
+const Joint& joint_of(const Model& model, const Contact& c) {
+  const auto [source, target] = triangles_of(c);
+  return c.kind == Contact::spring ? *contact_joint(model, {source, source}, {target, target})
+                                   : *contact_joint(model, {source, c.fragment}, {target, c.beside});
+}
+
 } // namespace
 
 ContactLaw law_of(const Model& model, const Contact& c) {
@@ -152,13 +159,12 @@ ContactLaw law_of(const Model& model, const Contact& c) {
     law.kn = c.stiffness;
     return law;
   }
-  const auto [a, b] = blocks_of(model, c);
-  const Joint& joint = *contact_joint(model, a, b);
+  const Joint& joint = joint_of(model, c);
   return law_between(model, joint, geom::portable::tan(joint.friction_angle), c);
 }
 
-double normal_stiffness_of(const Model& model, const Joint& joint, const Contact& c) {
-  return c.stiffness > 0 ? c.stiffness : law_between(model, joint, 0, c).kn;
+double normal_stiffness_of(const Model& model, const Contact& c) {
+  return c.stiffness > 0 ? c.stiffness : law_between(model, joint_of(model, c), 0, c).kn;
 }
 
 ContactLaw spring_law(const Model& model, const Joint& joint, double tan_friction,

@@ -10,8 +10,7 @@
 namespace cdem {
 
 ContactLaw law_of(const Model&, const Contact&);
-// N/m, of a spring or an edge by the law of its two blocks.
-double normal_stiffness_of(const Model&, const Joint&, const Contact&);
+double normal_stiffness_of(const Model&, const Contact&); // N/m, of a spring or an edge
 
 // Law of a spring, from its triangle and the triangle it is pressed into; law of two edges that cross, each with the means of
 // its two triangles. The joint is that between their bodies. A rigid body has no compliance beside one that deforms.

@@ -108,13 +108,20 @@ void keep_edges(const ContactSurface& before, int block, int begin, ContactSurfa
   }
 }
 
-// The blocks whose interface leaves them another contact than their bodies have.
-std::vector<BlockPairLaw> pair_laws(const Model& model) {
-  std::vector<BlockPairLaw> pairs;
+// Visits the interfaces that leave another contact than their bodies have, with its law.
+template <class Visit>
+void each_left(const Model& model, const Visit& visit) {
   for (const Interface& interface : model.interfaces)
     if (const auto left = model.surface.left_by.find(interface.joint);
         interface.frame >= 0 && left != model.surface.left_by.end())
-      pairs.push_back({{interface.block_a, interface.block_b}, left->second});
+      visit(interface, left->second);
+}
+
+std::vector<BlockPairLaw> pair_laws(const Model& model) {
+  std::vector<BlockPairLaw> pairs;
+  each_left(model, [&](const Interface& interface, int left) {
+    pairs.push_back({{interface.block_a, interface.block_b}, left});
+  });
   // If there are two interfaces between the same blocks, the first counts.
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const BlockPairLaw& a, const BlockPairLaw& b) { return a.blocks < b.blocks; });
@@ -129,6 +136,11 @@ std::vector<BlockPairLaw> pair_laws(const Model& model) {
 void build_surface(Model& model, const ContactSurface* before) {
   ContactSurface& s = model.surface;
   s.pairs = pair_laws(model);
+  std::map<std::pair<int, int>, int> left_at; // by block and face; of several interfaces the first counts
+  each_left(model, [&](const Interface& interface, int left) {
+    left_at.emplace(std::pair(interface.block_a, interface.face_a), left);
+    left_at.emplace(std::pair(interface.block_b, interface.face_b), left);
+  });
   s.triangles.clear();
   s.edges.clear();
   s.block_begin.clear();
@@ -145,9 +157,12 @@ void build_surface(Model& model, const ContactSurface* before) {
   s.block_begin.push_back(0);
   for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b) {
     const int begin = static_cast<int>(s.triangles.size());
-    for (; next < model.mesh.boundary.size() && model.mesh.boundary[next].block == b; ++next)
-      s.triangles.push_back(
-          make_triangle(model, model.mesh.boundary[next].nodes, model.mesh.boundary[next].tet));
+    for (; next < model.mesh.boundary.size() && model.mesh.boundary[next].block == b; ++next) {
+      const BoundaryTriangle& outer = model.mesh.boundary[next];
+      s.triangles.push_back(make_triangle(model, outer.nodes, outer.tet));
+      if (const auto left = left_at.find({b, outer.face}); left != left_at.end())
+        s.triangles.back().left = left->second;
+    }
     const int outer_end = static_cast<int>(s.triangles.size());
     if (before)
       keep_edges(*before, b, begin, s);
@@ -184,21 +199,48 @@ ContactStiffness contact_stiffness(const Joint& joint, double compliance) {
   return {normal, joint.shear_stiffness.value_or(normal)};
 }
 
+namespace {
+
+// What an interface with a law of its own leaves between them; null: there is none.
+const Joint* pair_law(const Model& model, int block_a, int block_b) {
+  const auto& pairs = model.surface.pairs;
+  const std::array<int, 2> blocks{std::min(block_a, block_b), std::max(block_a, block_b)};
+  const auto own =
+      std::lower_bound(pairs.begin(), pairs.end(), blocks,
+                       [](const BlockPairLaw& pair, const auto& wanted) { return pair.blocks < wanted; });
+  return own != pairs.end() && own->blocks == blocks ? &model.joints[own->joint] : nullptr;
+}
+
+} // namespace
+
 const Joint* contact_joint(const Model& model, int block_a, int block_b) {
-  if (const auto& pairs = model.surface.pairs; !pairs.empty()) {
-    const std::array<int, 2> blocks{std::min(block_a, block_b), std::max(block_a, block_b)};
-    const auto own =
-        std::lower_bound(pairs.begin(), pairs.end(), blocks,
-                         [](const BlockPairLaw& pair, const auto& wanted) { return pair.blocks < wanted; });
-    if (own != pairs.end() && own->blocks == blocks)
-      return &model.joints[own->joint];
-  }
+  if (const Joint* const own = pair_law(model, block_a, block_b))
+    return own;
   const int body = model.blocks[block_a].body;
   if (block_a == block_b)
     if (const auto within = model.surface.within.find(body); within != model.surface.within.end())
       return &model.joints[within->second];
   const auto found = model.surface.joint.find(std::minmax(body, model.blocks[block_b].body));
   return found == model.surface.joint.end() ? nullptr : &model.joints[found->second];
+}
+
+int law_left_between(const Model& model, const TrianglesOfSide& a, const TrianglesOfSide& b) {
+  int least = -1;
+  for (const int t : {a[0], a[1], b[0], b[1]})
+    if (const int left = model.surface.triangles[t].left;
+        left >= 0 && (least < 0 || model.joints[left].friction_angle < model.joints[least].friction_angle))
+      least = left;
+  return least;
+}
+
+const Joint* contact_joint(const Model& model, const TrianglesOfSide& a, const TrianglesOfSide& b) {
+  const int block_a = model.surface.triangles[a[0]].block, block_b = model.surface.triangles[b[0]].block;
+  const Joint* const of_blocks = contact_joint(model, block_a, block_b);
+  if (model.surface.pairs.empty() || of_blocks == nullptr || block_a == block_b ||
+      model.blocks[block_a].body != model.blocks[block_b].body || pair_law(model, block_a, block_b))
+    return of_blocks;
+  const int left = law_left_between(model, a, b);
+  return left < 0 ? of_blocks : &model.joints[left];
 }
 
 double friction_within(const Model& model, const Joint& law, int tet_a, int tet_b) {

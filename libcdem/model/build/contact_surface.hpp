@@ -30,6 +30,13 @@ ContactStiffness contact_stiffness(const Joint&, double compliance);
 // The law between two blocks, or between what one has broken into; null: none is given.
 const Joint* contact_joint(const Model&, int block_a, int block_b);
 
+// The law of a contact by its triangles: one, twice, of a semi-spring and of its target, both of a semi-edge. Blocks of one body
+// that no interface held keep the friction of the joints at the faces that meet; of several the least counts.
+using TrianglesOfSide = std::array<int, 2>;
+int law_left_between(const Model&, const TrianglesOfSide&,
+                     const TrianglesOfSide&); // of those joints; -1: there is none
+const Joint* contact_joint(const Model&, const TrianglesOfSide&, const TrianglesOfSide&);
+
 // tan of the friction angle between two tetrahedra of one mesh whose law this is: where a joint of its own was between their
 // regions, the friction that is left of it.
 double friction_within(const Model&, const Joint&, int tet_a, int tet_b);
