@@ -167,11 +167,11 @@ void Stage::place_water() {
   cdem::place_water(context_.model, context_.state, work.part().nodes(), context_.threads, work.resolved);
 }
 
-double Stage::update_crack_pressures(double stable) {
+double Stage::update_crack_pressures(double stable_step) {
   std::vector<CrackLoad>& cracks = work.resolved.cracks;
   cdem::update_crack_pressures(context_.model, context_.state, work.part().mesh_chunks(), context_.state.time,
                                cracks);
-  return crack_time_step(cracks, stable);
+  return crack_time_step(cracks, stable_step);
 }
 
 void Stage::carry_water(const std::vector<double>& water) {
