@@ -33,6 +33,7 @@ struct Contact {
   double usual_force = 0; // N, mean of its normal force over some ten oscillations
   double felt_force = 0;  // N, the same over two thirds of one
   double stiffness = 0;   // N/m, of its normal spring (as_stiff_as); 0: that of its law
+  double area = 0;        // m2, for which it stands on a flat face (face_cover.hpp); 0: on another
 
   explicit Contact(Kind of = spring, int from = 0)
       : kind(of & 3u), source(static_cast<std::uint32_t>(from) & 0x3fffffffu) {}

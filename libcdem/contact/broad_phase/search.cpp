@@ -9,6 +9,7 @@
 #include "libcdem/contact/broad_phase/rows.hpp"
 #include "libcdem/contact/broad_phase/search_shares.hpp"
 #include "libcdem/contact/broad_phase/tets_beyond.hpp"
+#include "libcdem/contact/geometry/face_cover.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
 #include "libcdem/joint/softening.hpp"
@@ -128,6 +129,7 @@ void start_contact(const Model& model, ContactWork& work) {
     work.knows_motions = work.knows_motions || model.joints[law].restitution < 1;
   work.damps = work.knows_motions || std::any_of(model.blocks.begin(), model.blocks.end(),
                                                  [](const Block& block) { return block.rigid < 0; });
+  work.faces = flat_faces(model);
   work.sizes.freed.assign(model.blocks.size(), 0);
   for (const MeshChunk& chunk : model.mesh.chunks)
     if (chunk.side_batches.size() > 0)

@@ -6,6 +6,7 @@
 #include "libcdem/contact/data/contact_force.hpp"
 #include "libcdem/contact/data/contact_fragments.hpp"
 #include "libcdem/contact/data/contact_rows.hpp"
+#include "libcdem/contact/data/flat_faces.hpp"
 #include "libcdem/contact/data/rigid_pair.hpp"
 #include "libcdem/contact/data/surface_edges.hpp"
 #include "libcdem/parallel/chunks.hpp"
@@ -86,6 +87,7 @@ struct ContactWork {
   ContactFragments fragments;
   TetsBeyond tets_beyond; // written by find_tets_beyond for the fragments that are known
   SurfaceEdges edges;
+  FlatFaces faces; // written by start_contact
   BlockTravel travel;
   RigidPairs rigid_pairs;
   Searches search;

@@ -386,6 +386,27 @@ bool Evaluation::at_a_step(const ContactTriangle& from, const geom::Vec3& outwar
   return false;
 }
 
+const FaceCover& Evaluation::cover(int f, int g) {
+  const auto [first, second] = std::minmax(f, g);
+  Cover& known = covers_[static_cast<std::size_t>(f + g) % covers_.size()];
+  if (known.faces != std::pair(first, second))
+    known = {{first, second}, cover_of(model_, state_, work_.faces.all[first], work_.faces.all[second])};
+  return known.cover;
+}
+
+bool Evaluation::renews_areas() const {
+  constexpr std::int64_t every = 20;
+  return work_.step > 0 && state_.step % every == 0;
+}
+
+// It keeps the stiffness with which it began: under another triangle of the target its energy would jump.
+void Evaluation::set_stiffness(Contact& c, const Contact* old, const ContactLaw& law, double of,
+                               double on) const {
+  const double before = old && old->stiffness > 0 ? old->stiffness : law.kn;
+  c.area = on > 0 ? on : old ? old->area : 0;
+  c.stiffness = on > 0 ? before * on / (old && old->area > 0 ? old->area : of) : before;
+}
+
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
                              const Nearest& nearest, double begins) {
   const ContactTriangle &from = surface_.triangles[source], &to = surface_.triangles[nearest.target];
@@ -412,8 +433,12 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
       (spin(x, velocities(from.nodes), motion.normal) + spin(y.x, velocities(to.nodes), motion.normal));
   const Law& between = law_between({source, source}, {nearest.target, nearest.target});
   ContactLaw law = spring_law(model_, *between.joint, between.tan_friction, from, to);
-  // It keeps the stiffness with which it began: under another triangle of the target its energy would jump.
-  c.stiffness = old ? old->stiffness : law.kn;
+  double area = 0;
+  const int f = work_.faces.of_triangle[source], g = work_.faces.of_triangle[nearest.target];
+  if (f >= 0 && g >= 0 && (!old || renews_areas()))
+    if (const FaceCover& on = cover(f, g); on.flat)
+      area = spring_area(from.area, work_.faces.all[g].usual_area) * on.weight(spring);
+  set_stiffness(c, old, law, spring_area(from.area, to.area), area);
   law = as_stiff_as(c, law);
   finish(c, old, motion, arms, law, from, to);
   return true;

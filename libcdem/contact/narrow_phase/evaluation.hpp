@@ -3,6 +3,7 @@
 
 #include "libcdem/contact/broad_phase/active_surface.hpp"
 #include "libcdem/contact/data/contact_work.hpp"
+#include "libcdem/contact/geometry/face_cover.hpp"
 #include "libcdem/contact/geometry/nearest.hpp"
 #include "libcdem/contact/narrow_phase/edge_lines.hpp"
 #include "libcdem/contact/response/contact_law.hpp"
@@ -58,6 +59,12 @@ private:
   bool add_contact(int source, int corner, const geom::Vec3& spring, int fragment, const Nearest&,
                    double begins);
   void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
+  // Two flat faces, by their numbers.
+  const FaceCover& cover(int f, int g);
+  // Sets stiffness and area of a contact. old: the same one before the step, null where there was none; of: m2, without
+  // another face; on: m2, for which it stands on a flat face now; 0: on another.
+  void set_stiffness(Contact&, const Contact* old, const ContactLaw&, double of, double on) const;
+  bool renews_areas() const; // in this step, of contacts that there are
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
   double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
   // What the contacts between two blocks share in a step.
@@ -106,6 +113,11 @@ private:
   std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
   std::array<Law, 8> laws_;                  // by the last bits of the numbers of both
   std::array<BlockPair, 8> pairs_;
+  struct Cover {
+    std::pair<int, int> faces{-1, -1};
+    FaceCover cover;
+  };
+  std::array<Cover, 8> covers_; // by the last bits of the numbers of both
   std::array<std::vector<Nearest>, 3>
       awake_;                    // of a row's semi-springs: their places on the targets that were looked at
   std::array<Facet, 64> facets_; // by the last bits of a triangle's number

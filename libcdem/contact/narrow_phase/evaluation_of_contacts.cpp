@@ -139,6 +139,10 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     }
     const ContactLoss loss = advance(c, law, motion);
     force.friction += loss.friction;
+    // Less than it would store if it had been as stiff before: the work of its force, by the trapezoidal rule.
+    if (own && c.area != old->area)
+      force.friction -=
+          0.5 * (c.stiffness - old->stiffness) * old->effective_penetration() * c.effective_penetration();
     force.damping = loss.damping;
   }
   force.arms = arms;

@@ -211,6 +211,20 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
   const Contact* old = before(c);
   std::optional<Contact> beyond;
   const ContactLaw own = edge_law(model_, *law.joint, law.tan_friction, e.triangles, f.triangles);
+  const auto mean_area = [&](const ContactEdge& edge) {
+    return 0.5 * (surface_.triangles[edge.triangles[0]].area + surface_.triangles[edge.triangles[1]].area);
+  };
+  const double of = edge_area(mean_area(e), mean_area(f));
+  const auto on_faces = [&] { // m2, where a face of each lies on the other
+    for (const int one : e.triangles)
+      for (const int other : f.triangles)
+        if (const int a = work_.faces.of_triangle[one], b = work_.faces.of_triangle[other]; a >= 0 && b >= 0)
+          if (const FaceCover& on = cover(a, b); on.flat)
+            return of * on.weight(place_of(model_, state_, e.nodes[0]) +
+                                  nearest.at.s * (place_of(model_, state_, e.nodes[1]) -
+                                                  place_of(model_, state_, e.nodes[0])));
+    return 0.;
+  };
   if (const auto& stretch = nearest.stretch) {
     motion.lever = stretch->lever;
     motion.along_stretch = old != nullptr;
@@ -218,8 +232,9 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
       return;
     c.stiffness = stretch->share * own.kn; // of the stretch that they have now
   } else if (old) {
-    c.stiffness = old->stiffness;
+    set_stiffness(c, old, own, of, renews_areas() ? on_faces() : 0);
   } else {
+    set_stiffness(c, nullptr, own, of, on_faces());
     beyond = lines_.left_behind(source, target, touch.normal);
     old = beyond ? &*beyond : nullptr;
     if (!old && !may_begin)

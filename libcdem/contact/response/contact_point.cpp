@@ -1,5 +1,6 @@
 #include "libcdem/contact/response/contact_point.hpp"
 
+#include "libcdem/contact/geometry/face_cover.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/response/tet_potential.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
@@ -171,8 +172,7 @@ ContactLaw spring_law(const Model& model, const Joint& joint, double tan_frictio
                       const ContactTriangle& from, const ContactTriangle& to) {
   // Both sides bring their springs. The finer side takes most of the pressure, in the ratio of the areas, and both together
   // the whole of it, wherever the springs of the coarser side stand.
-  return law_over(model, from.block, to.block, joint, tan_friction,
-                  2 * from.area * to.area / (from.area + to.area) / 3,
+  return law_over(model, from.block, to.block, joint, tan_friction, spring_area(from.area, to.area),
                   compliance_between(model, from.block, from.compliance, to.block, to.compliance));
 }
 
@@ -180,7 +180,7 @@ ContactLaw edge_law(const Model& model, const Joint& joint, double tan_friction,
                     const std::array<int, 2>& from, const std::array<int, 2>& to) {
   const std::vector<ContactTriangle>& t = model.surface.triangles;
   const auto mean = [](double a, double b) { return 0.5 * (a + b); };
-  const double area = mean(t[from[0]].area, t[from[1]].area) / 3 + mean(t[to[0]].area, t[to[1]].area) / 3;
+  const double area = edge_area(mean(t[from[0]].area, t[from[1]].area), mean(t[to[0]].area, t[to[1]].area));
   return law_over(model, t[from[0]].block, t[to[0]].block, joint, tan_friction, area,
                   compliance_between(model, t[from[0]].block,
                                      mean(t[from[0]].compliance, t[from[1]].compliance), t[to[0]].block,

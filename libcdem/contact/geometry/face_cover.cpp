@@ -1,0 +1,200 @@
+#include "libcdem/contact/geometry/face_cover.hpp"
+
+#include "libcdem/contact/geometry/edge_touch.hpp"
+#include "libcdem/contact/geometry/positions.hpp"
+#include "libcdem/contact/response/contact_point.hpp"
+#include "libgeom/query/clip_polygon.hpp"
+
+#include <algorithm>
+
+namespace cdem {
+namespace {
+
+double cross(const geom::Point& a, const geom::Point& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// m, from the nearest line along the outline; below 0 outside.
+double inside_outline(const geom::Polygon& outline, const geom::Point& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const geom::Point &a = outline[i], &b = outline[(i + 1) % outline.size()];
+    least = std::min(least, cross(b - a, x - a) / (b - a).norm());
+  }
+  return least;
+}
+
+// A face, laid into the plane of the axes.
+geom::Polygon laid_flat(const Model& model, const State& state, const FlatFace& face,
+                        const geom::PlaneAxes& axes, bool reverse) {
+  geom::Polygon polygon;
+  for (const int node : face.outline)
+    polygon.push_back(axes.flat(place_of(model, state, node)));
+  if (reverse)
+    std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+geom::Vec3 normal_of(const Model& model, const State& state, const FlatFace& face) {
+  geom::Vec3 twice = geom::Vec3::Zero();
+  const geom::Vec3 origin = place_of(model, state, face.outline[0]);
+  for (std::size_t i = 2; i < face.outline.size(); ++i)
+    twice += (place_of(model, state, face.outline[i - 1]) - origin)
+                 .cross(place_of(model, state, face.outline[i]) - origin);
+  return twice.normalized();
+}
+
+// Sums over places of weight 1, x, y and their products.
+struct Sums {
+  double one = 0;
+  geom::Point first = geom::Point::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+  void add(double area, const geom::Point& x) {
+    one += area;
+    first += area * x;
+    second += area * x * x.transpose();
+  }
+};
+
+// Calls each(area, place) for the contacts that two faces have where they lie on each other.
+template <class Each>
+void each_contact(const Model& model, const State& state, const std::array<const FlatFace*, 2>& faces,
+                  const std::array<geom::Polygon, 2>& outlines, const geom::PlaneAxes& axes,
+                  const Each& each) {
+  for (int side = 0; side < 2; ++side)
+    for (const int t : faces[side]->triangles) {
+      const ContactTriangle& triangle = model.surface.triangles[t];
+      const Corners x = corners_of(model, state, triangle.nodes);
+      for (int corner = 0; corner < 3; ++corner) {
+        const geom::Point place = axes.flat(weighted(x, spring_weights(corner)));
+        if (inside_outline(outlines[1 - side], place) >= 0)
+          each(spring_area(triangle.area, faces[1 - side]->usual_area), place);
+      }
+    }
+  const auto flat = [&](int node) { return axes.flat(place_of(model, state, node)); };
+  const auto may_meet_at = [](const FlatFace::Edge& edge, double place) {
+    return place >= (edge.ends[0] ? drawn_in : 0) && place <= 1 - (edge.ends[1] ? drawn_in : 0);
+  };
+  for (const FlatFace::Edge& e : faces[0]->edges) {
+    const geom::Point a = flat(e.nodes[0]), along = flat(e.nodes[1]) - a;
+    for (const FlatFace::Edge& f : faces[1]->edges) {
+      const geom::Point b = flat(f.nodes[0]), across = flat(f.nodes[1]) - b;
+      const double twice = cross(along, across);
+      if (std::abs(twice) < parallel_edges * along.norm() * across.norm())
+        continue;
+      const double s = cross(b - a, across) / twice, t = cross(b - a, along) / twice;
+      if (may_meet_at(e, s) && may_meet_at(f, t))
+        each(edge_area(e.area, f.area), a + s * along);
+    }
+  }
+}
+
+// Largest part of the mean by which weights differ from it.
+constexpr double most_uneven = 0.9;
+
+} // namespace
+
+FlatFaces flat_faces(const Model& model) {
+  const ContactSurface& s = model.surface;
+  FlatFaces faces;
+  faces.of_triangle.assign(s.triangles.size(), -1);
+  for (std::size_t b = 0; b + 1 < s.block_begin.size(); ++b) {
+    const Block& block = model.blocks[b];
+    if (!block.convex())
+      continue;
+    const int first = static_cast<int>(faces.all.size());
+    const auto count = static_cast<int>(block.shape.faces.size());
+    std::vector<std::array<geom::Vec3, 2>> planes; // a place and the normal
+    for (int f = 0; f < count; ++f) {
+      FlatFace& face = faces.all.emplace_back();
+      for (const int vertex : block.shape.faces[f].loop)
+        face.outline.push_back(block.node_begin + vertex);
+      planes.push_back({model.node_position[face.outline[0]], geom::face_normal(block.shape, f)});
+    }
+    const auto vertices = static_cast<int>(block.shape.vertices.size());
+    for (int t = s.block_begin[b]; t < s.block_begin[b + 1]; ++t) {
+      const geom::Triangle& n = s.triangles[t].nodes;
+      const geom::Vec3 centre =
+          (model.node_position[n[0]] + model.node_position[n[1]] + model.node_position[n[2]]) / 3;
+      int nearest = 0;
+      double least = std::numeric_limits<double>::infinity();
+      for (int f = 0; f < count; ++f) // it is in the plane that it is least below
+        if (const double below = (planes[f][0] - centre).dot(planes[f][1]); below < least) {
+          least = below;
+          nearest = f;
+        }
+      faces.of_triangle[t] = first + nearest;
+      faces.all[first + nearest].triangles.push_back(t);
+    }
+    const auto edges_from =
+        std::partition_point(s.edges.begin(), s.edges.end(),
+                             [&](const ContactEdge& edge) { return edge.triangles[0] < s.block_begin[b]; });
+    for (auto edge = edges_from; edge != s.edges.end() && edge->triangles[0] < s.block_begin[b + 1]; ++edge) {
+      FlatFace::Edge own;
+      own.nodes = edge->nodes;
+      for (int end = 0; end < 2; ++end)
+        own.ends[end] = edge->nodes[end] - block.node_begin < vertices;
+      own.area = 0.5 * (s.triangles[edge->triangles[0]].area + s.triangles[edge->triangles[1]].area);
+      for (const int t : edge->triangles)
+        faces.all[faces.of_triangle[t]].edges.push_back(own);
+    }
+    for (int f = first; f < first + count; ++f) {
+      FlatFace& face = faces.all[f];
+      for (const int t : face.triangles)
+        face.usual_area += s.triangles[t].area / static_cast<double>(face.triangles.size());
+    }
+  }
+  return faces;
+}
+
+FaceCover cover_of(const Model& model, const State& state, const FlatFace& f, const FlatFace& g) {
+  FaceCover cover;
+  const geom::Vec3 normal = normal_of(model, state, f), other = normal_of(model, state, g);
+  if (normal.dot(other) >= 0 || normal.cross(other).norm() > clear_of_faces)
+    return cover;
+  const geom::Vec3 origin = place_of(model, state, f.outline[0]),
+                   along = place_of(model, state, f.outline[1]) - origin;
+  cover.axes.e1 = (along - along.dot(normal) * normal).normalized();
+  cover.axes.e2 = normal.cross(cover.axes.e1);
+  cover.axes.origin = origin;
+  std::array<geom::Polygon, 2> outlines{laid_flat(model, state, f, cover.axes, false),
+                                        laid_flat(model, state, g, cover.axes, true)};
+  geom::Polygon covered = outlines[0], scratch;
+  for (std::size_t i = 0; i < outlines[1].size() && !covered.empty(); ++i)
+    geom::clip(covered, outlines[1][i], outlines[1][(i + 1) % outlines[1].size()], scratch);
+  double area = 0;
+  geom::Point first = geom::Point::Zero(); // m3
+  for (std::size_t i = 2; i < covered.size(); ++i) {
+    const double part = 0.5 * cross(covered[i - 1] - covered[0], covered[i] - covered[0]);
+    area += part;
+    first += part / 3 * (covered[0] + covered[i - 1] + covered[i]);
+  }
+  if (!(area > 0))
+    return cover;
+  const geom::Point centroid = first / area;
+  cover.axes.origin = origin + centroid.x() * cover.axes.e1 + centroid.y() * cover.axes.e2;
+  for (geom::Polygon& outline : outlines)
+    for (geom::Point& x : outline)
+      x -= centroid;
+  Sums sums;
+  const std::array<const FlatFace*, 2> faces{&f, &g};
+  const auto each = [&](const auto& does) { each_contact(model, state, faces, outlines, cover.axes, does); };
+  each([&](double of, const geom::Point& x) { sums.add(of, x); });
+  if (!(sums.one > 0))
+    return cover;
+  cover.flat = true;
+  cover.mean = 2 * area / sums.one;
+  // About the mean place of the contacts: weights that bring it to the centroid.
+  const geom::Point mean = sums.first / sums.one;
+  const Eigen::Matrix2d spread = sums.second / sums.one - mean * mean.transpose();
+  if (spread.determinant() <= 1e-6 * spread.trace() * spread.trace())
+    return cover; // they stand in a line
+  const geom::Point slope = -spread.inverse() * mean;
+  double uneven = 0;
+  each([&](double, const geom::Point& x) { uneven = std::max(uneven, std::abs(slope.dot(x - mean))); });
+  cover.slope = cover.mean * std::min(1.0, most_uneven / std::max(uneven, most_uneven)) * slope;
+  cover.mean -= cover.slope.dot(mean);
+  return cover;
+}
+
+} // namespace cdem

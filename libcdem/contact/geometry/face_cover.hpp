@@ -1,0 +1,43 @@
+// Which area each contact of two flat faces that lie on each other stands for.
+//
+// Semi-springs stand at the corners of triangles, and semi-edges where outlines cross. Each has a part of its triangles' area,
+// whatever part of these the other face covers. So two faces would press with more or less than the pressure times the
+// area in which they cover each other: a block that reaches over the next one by a hundredth would rest on it with a quarter of
+// its weight. The two faces F and G cover each other in the polygon P. The contacts c that they can have stand in its corners, and
+// within it, at x_c, with the areas A_c of the paper (half of each for either body). Weights that are linear in the plane,
+//
+//   sum of A_c w(x_c) = 2 |P|,   sum of A_c w(x_c) x_c = 2 |P| (centroid of P)
+//
+// give both faces together the pressure times the area of P, at its centroid. They change as P does, with no jump where a corner
+// leaves the other face. Where the faces cover each other wholly and have equal triangles, w is 1.
+#pragma once
+
+#include "libcdem/contact/data/flat_faces.hpp"
+#include "libcdem/state/state.hpp"
+#include "libgeom/query/flat_fan.hpp"
+
+namespace cdem {
+
+FlatFaces flat_faces(const Model&);
+
+// m2: A of a semi-spring, and of two edges; each from the areas of the triangles at both.
+inline double spring_area(double from, double to) {
+  return 2 * from * to / (from + to) / 3;
+}
+inline double edge_area(double e, double f) {
+  return (e + f) / 3;
+}
+
+struct FaceCover {
+  bool flat = false; // the two lie on each other
+  geom::PlaneAxes axes{};
+  double mean = 1;                               // w at the origin of the axes
+  geom::Point slope = geom::Point::Zero();       // 1/m
+  double weight(const geom::Vec3& place) const { // w
+    return mean + slope.dot(axes.flat(place));
+  }
+};
+
+FaceCover cover_of(const Model&, const State&, const FlatFace&, const FlatFace&);
+
+} // namespace cdem
