@@ -61,16 +61,21 @@ template <class Each>
 void each_contact(const Model& model, const State& state, const std::array<const FlatFace*, 2>& faces,
                   const std::array<geom::Polygon, 2>& outlines, const geom::PlaneAxes& axes,
                   const Each& each) {
-  for (int side = 0; side < 2; ++side)
+  for (int side = 0; side < 2; ++side) {
+    const FlatFace& other = *faces[1 - side];
+    const geom::Vec3 on = place_of(model, state, other.outline[0]), normal = normal_of(model, state, other);
     for (const int t : faces[side]->triangles) {
       const ContactTriangle& triangle = model.surface.triangles[t];
       const Corners x = corners_of(model, state, triangle.nodes);
       for (int corner = 0; corner < 3; ++corner) {
-        const geom::Point place = axes.flat(weighted(x, spring_weights(corner)));
-        if (inside_outline(outlines[1 - side], place) >= 0)
-          each(spring_area(triangle.area, faces[1 - side]->usual_area), place);
+        const geom::Vec3 spring = weighted(x, spring_weights(corner));
+        const geom::Point place = axes.flat(spring);
+        // Nearer to the outline than to the face it presses on what is beside the face.
+        if (inside_outline(outlines[1 - side], place) > std::max(0.0, (on - spring).dot(normal)))
+          each(spring_area(triangle.area, other.usual_area), place);
       }
     }
+  }
   const auto flat = [&](int node) { return axes.flat(place_of(model, state, node)); };
   const auto may_meet_at = [](const FlatFace::Edge& edge, double place) {
     return place >= (edge.ends[0] ? drawn_in : 0) && place <= 1 - (edge.ends[1] ? drawn_in : 0);
