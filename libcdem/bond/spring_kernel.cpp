@@ -3,6 +3,8 @@
 #include "libcdem/bond/interface_turn.hpp"
 #include "libcdem/joint/spring_law.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 namespace {
 
@@ -156,7 +158,19 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
           viscous_along<Oct>(none + springs.contact_damping, kn, dot(rate, n), normal_force);
       along = contact & ~leaves ? of_contact : none;
     }
-    held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2), along);
+    Oct felt = along;
+    if (springs.rest_rate) {
+      Oct passed;
+      for (int lane = 0; lane < lanes; ++lane)
+        passed[lane] = std::min(1.0, springs.damping_step * springs.rest_rate[batch.interface[lane]]);
+      const Oct usual_before = simd::load_wide<Oct>(springs.usual_force),
+                rested_before = simd::load_wide<Oct>(springs.rested);
+      Oct usual = usual_before, rested = rested_before;
+      felt = felt_beside<Oct>(normal_force, along, passed, usual, rested);
+      simd::store_wide<Oct>(springs.usual_force, contact ? usual : usual_before);
+      simd::store_wide<Oct>(springs.rested, contact ? rested : rested_before);
+    }
+    held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2), felt);
     held = {contact ? held.normal : one, contact ? held.shear : one};
     const Mask slips = simd::below<Oct>(held.shear, one);
     if (simd::any(slips & ~leaves)) {
@@ -172,7 +186,7 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
       const Triples viscous_before = load_triples(springs.viscous),
                     across = viscous_across<Oct>(
                         none + springs.contact_damping, ks, n, rate,
-                        friction_left<Oct>(ks, tan, normal_force + along, root(length2)), press & ~slips);
+                        friction_left<Oct>(ks, tan, normal_force + felt, root(length2)), press & ~slips);
       viscous = along * n + across;
       const Oct lost = (0.5 * springs.damping_step) * dot(viscous_before + viscous, rate);
       for (int lane = 0; lane < lanes; ++lane)

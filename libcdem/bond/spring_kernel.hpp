@@ -18,10 +18,13 @@ struct SpringsOfBatch {
   const std::uint8_t* mode = nullptr;                                // the first spring's
   geom::Vec3 *offset = nullptr, *force = nullptr, *acting = nullptr; // acting: null where force acts
   bool breaking = false;
-  double contact_damping = 0; // s, as in BondWork; 0: none
+  // Of a step in time.
+  const double* rest_rate = nullptr; // of interface 0, as in BondWork; null: no time passes
+  double *usual_force = nullptr, *rested = nullptr;
+  double contact_damping = 0; // s, as in BondWork
   double damping_step = 0;    // s
   const Node* velocity = nullptr;
-  geom::Vec3* viscous = nullptr;
+  geom::Vec3* viscous = nullptr; // null: no dashpots
 };
 
 struct SpringSpent {
