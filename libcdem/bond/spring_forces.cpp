@@ -172,7 +172,7 @@ struct SpringsOfChunk {
   State& state;
   BondWork& work;
   SpringSums& sums;
-  bool breaking, acts_otherwise, damped, advances; // advances: by a step in time
+  bool breaking, acts_otherwise, damped, advances; // advances: the means of contacts, in time
 };
 
 // Relative displacement at which the contact in a spring carries nothing, m.
@@ -368,6 +368,13 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
                        {c.model.points[range.begin].interface, c.model.points[range.end - 1].interface + 1},
                        state.displacement.data());
   const bool plain = state.water_pressure.empty() && !(c.damped && !c.work.damping.empty());
+  const ContactsInTime contacts{c.work.rest_rate.data(),
+                                state.usual_force.data(),
+                                state.rested.data(),
+                                c.work.contact_damping,
+                                c.work.damping_step,
+                                state.velocity.data(),
+                                c.damped ? c.work.viscous.data() : nullptr};
   ReadAhead ahead = reads_of(c, chunk + 1);
   ahead.spread(batches.first[chunk + 1] - batches.first[chunk]);
   std::int64_t p = range.begin;
@@ -390,17 +397,8 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
       springs.force = c.work.spring_force.data() + p;
       springs.acting = c.acts_otherwise ? c.work.acting_force.data() + p : nullptr;
       springs.breaking = c.breaking;
-      if (c.advances) {
-        springs.rest_rate = c.work.rest_rate.data();
-        springs.usual_force = state.usual_force.data() + p;
-        springs.rested = state.rested.data() + p;
-        springs.damping_step = c.work.damping_step;
-      }
-      if (c.damped && batch.turns) {
-        springs.contact_damping = c.work.contact_damping;
-        springs.velocity = state.velocity.data();
-        springs.viscous = c.work.viscous.data() + p;
-      }
+      springs.contacts = c.advances ? &contacts : nullptr;
+      springs.first = p;
       SpringSpent spent{c.sums.friction, c.sums.damping};
       one_by_one = plain_springs(batches, batch, springs, spent);
       c.sums.friction = spent.friction;
@@ -444,7 +442,7 @@ void spring_forces(const Model& model, State& state, BondWork& work, std::int64_
                                breaking,
                                !work.acting_force.empty(),
                                work.damping_step > 0 && !work.viscous.empty(),
-                               work.damping_step > 0};
+                               work.damping_step > 0 && !state.rested.empty()};
   if (state.bond_damage.empty() && state.joint_history.empty())
     forces_of_springs<false>(chunk, springs);
   else
@@ -506,7 +504,19 @@ void start_spring_forces(const Model& model, const State& state, BondWork& work)
     work.stretch[p] = local_jump(model, state.displacement, static_cast<int>(p)) - state.bond_offset[p];
 }
 
+bool lacks_means(const State& state) {
+  return state.rested.empty() && !std::all_of(state.bond_mode.begin(), state.bond_mode.end(),
+                                              [](std::uint8_t mode) { return is_intact(mode); });
+}
+
+void make_room_for_means(State& state) {
+  state.usual_force.assign(state.bond_mode.size(), 0.0);
+  state.rested.assign(state.bond_mode.size(), 0.0);
+}
+
 void rest_contacts(const Model& model, State& state) {
+  if (lacks_means(state))
+    make_room_for_means(state);
   for (std::size_t p = 0; p < model.points.size(); ++p)
     if (!is_intact(state.bond_mode[p])) {
       const BondPoint& point = model.points[p];

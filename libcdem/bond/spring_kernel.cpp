@@ -150,25 +150,29 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   HeldByContact<Oct> held{one, one};
   Triples viscous{};
   if (simd::any(contact)) {
+    const ContactsInTime in_time = springs.contacts ? *springs.contacts : ContactsInTime();
+    geom::Vec3* const dashpots = in_time.viscous && batch.turns ? in_time.viscous + springs.first : nullptr;
     Triples rate{};
     Oct along{};
-    if (springs.viscous) {
-      rate = turned_back(rotation, jumps_of(all, batch, springs.velocity));
+    if (dashpots) {
+      rate = turned_back(rotation, jumps_of(all, batch, in_time.velocity));
       const Oct of_contact =
-          viscous_along<Oct>(none + springs.contact_damping, kn, dot(rate, n), normal_force);
+          viscous_along<Oct>(none + in_time.contact_damping, kn, dot(rate, n), normal_force);
       along = contact & ~leaves ? of_contact : none;
     }
     Oct felt = along;
-    if (springs.rest_rate) {
+    if (springs.contacts) {
+      double *const usual_force = in_time.usual_force + springs.first, *const rested_for =
+                                                                           in_time.rested + springs.first;
       Oct passed;
       for (int lane = 0; lane < lanes; ++lane)
-        passed[lane] = std::min(1.0, springs.damping_step * springs.rest_rate[batch.interface[lane]]);
-      const Oct usual_before = simd::load_wide<Oct>(springs.usual_force),
-                rested_before = simd::load_wide<Oct>(springs.rested);
+        passed[lane] = std::min(1.0, in_time.damping_step * in_time.rest_rate[batch.interface[lane]]);
+      const Oct usual_before = simd::load_wide<Oct>(usual_force),
+                rested_before = simd::load_wide<Oct>(rested_for);
       Oct usual = usual_before, rested = rested_before;
       felt = felt_beside<Oct>(normal_force, along, passed, usual, rested);
-      simd::store_wide<Oct>(springs.usual_force, contact ? usual : usual_before);
-      simd::store_wide<Oct>(springs.rested, contact ? rested : rested_before);
+      simd::store_wide<Oct>(usual_force, contact ? usual : usual_before);
+      simd::store_wide<Oct>(rested_for, contact ? rested : rested_before);
     }
     held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2), felt);
     held = {contact ? held.normal : one, contact ? held.shear : one};
@@ -181,18 +185,18 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
           spent.friction += lost[lane];
       store_triples(springs.offset, offset + slip);
     }
-    if (springs.viscous) {
+    if (dashpots) {
       const Mask here = contact & ~leaves, press = here & simd::below<Oct>(normal_force, none);
-      const Triples viscous_before = load_triples(springs.viscous),
+      const Triples viscous_before = load_triples(dashpots),
                     across = viscous_across<Oct>(
-                        none + springs.contact_damping, ks, n, rate,
+                        none + in_time.contact_damping, ks, n, rate,
                         friction_left<Oct>(ks, tan, normal_force + felt, root(length2)), press & ~slips);
       viscous = along * n + across;
-      const Oct lost = (0.5 * springs.damping_step) * dot(viscous_before + viscous, rate);
+      const Oct lost = (0.5 * in_time.damping_step) * dot(viscous_before + viscous, rate);
       for (int lane = 0; lane < lanes; ++lane)
         if (here[lane] != 0)
           spent.damping += lost[lane];
-      store_triples(springs.viscous, chosen(here, viscous, viscous_before));
+      store_triples(dashpots, chosen(here, viscous, viscous_before));
     }
   }
   // The forces of the step before are still asked for where springs leave.
