@@ -21,7 +21,7 @@ struct ContactTriangle {
   int tet = 0;           // that it bounds
   int face = -1;         // of a bonded inner face: batch * lanes + lane in MeshData::faces; -1: an outer one
   int mate = -1;         // the triangle on that face's other side
-  int left = -1;         // the law that a joint of its own leaves at this face (index into Model::joints); -1: it has none
+  int left = -1;         // law that a joint of its own leaves here (into Model::joints); -1: none
   double area = 0;       // m2, undeformed
   double height = 0;     // h, m, of its tet above it, undeformed
   double compliance = 0; // h / E, m/Pa: what a pressure on it presses the tet together by

@@ -234,11 +234,9 @@ Value cut_by_plane(Session& session, Object*, const Arguments& a) {
   const geom::Plane plane = geom::Plane::through(a.vec3("point"), normal);
   const geom::Box box = geom::bounding_box(whole);
   const double reach = 0.5 * plane.normal.cwiseAbs().dot(box.size());
-  if (!whole.blocks.empty() &&
-      std::abs(plane.level(box.centre())) > (1 - 1e-9) * reach) // an outer face cuts nothing off either
-    session.warn("cut_by_plane: the plane lies beside the shape or on its outside, so nothing was cut; "
-                 "shape:box() tells where "
-                 "it is");
+  if (!whole.blocks.empty() && std::abs(plane.level(box.centre())) > (1 + 1e-9) * reach)
+    session.warn(
+        "cut_by_plane: the plane misses the shape, so nothing was cut; shape:box() tells where it is");
   const Splinters splinters = splinters_of(parts);
   if (const std::int64_t made_here = splinters.count - splinters_of(whole).count; made_here > 0)
     session.warn("cut_by_plane: " + geom::counted(made_here, "block") +
