@@ -171,18 +171,12 @@ TEST_CASE("sliding blocks: a pressed joint with dilation follows its law", "[sli
   cdem::Fix move = fixed(box.top, "x");
   move.velocity = Vec3(0.1, 0, 0);
   box.s.fix(move);
-  constexpr int moments = 10;
   for (int i = 0; i < 4; ++i) { // to 0.2 m
-    double bears = 0;           // N, mean
-    for (int k = 0; k < moments; ++k) {
-      box.s.run(lasting(0.5 / moments, 0.3));
-      bears += box.s.reaction(box.top).x() / moments;
-    }
+    box.s.run(lasting(0.5, 0.3));
     const double slid = box.moved(0);
     CAPTURE(slid);
     CHECK(box.moved(2) - height == Approx(slid * std::tan(10 * degree)).epsilon(0.03));
-    if (i > 0) // it is pushed at its whole speed at once, and rocks at first
-      CHECK(bears == Approx(pressure * std::tan(25 * degree)).epsilon(0.03));
+    CHECK(box.s.reaction(box.top).x() == Approx(pressure * std::tan(25 * degree)).epsilon(0.03));
     CHECK(box.s.energy().balance_error() < 1e-3);
   }
   CHECK(box.s.joints({}).at(0).parted == 0);

@@ -8,11 +8,11 @@ namespace cdem {
 struct FlatFace {
   std::vector<int> outline;   // nodes, counter-clockwise seen from outside
   std::vector<int> triangles; // of the surface
-  double usual_area = 0;      // m2, of its triangles the mean, undeformed
+  double usual_area = 0;      // m2, mean of its triangles, undeformed
   struct Edge {
     std::array<int, 2> nodes{};
     std::array<bool, 2> ends{}; // whether the face ends at the node
-    double area = 0;            // m2, of the two triangles there the mean, undeformed
+    double area = 0;            // m2, mean of the two triangles there, undeformed
   };
   std::vector<Edge> edges; // semi-edges along its outline
 };
