@@ -40,6 +40,7 @@ function(cdem_compile_together target most)
   get_target_property(sources ${target} SOURCES)
   set(folder_before "")
   foreach(source IN LISTS sources)
+    get_filename_component(source ${source} ABSOLUTE)
     if(NOT EXISTS ${source})
       continue() # generated
     endif()

@@ -25,13 +25,13 @@ TEST_CASE("ranks: an error of the script is told once, with its exit code") {
       {"local cdem = require 'cdem'\ncdem.read_csv 'none.csv'", "4",
        "cdem.read_csv: file \"none.csv\": not found"}};
   for (const auto& [text, code, said] : cases) {
-    Place place(text);
+    PlateFolder place(text);
     const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"});
     CHECK(outcome.exit_code == std::stoi(code));
     CHECK(lines_of(outcome.err).size() == 1);
     CHECK_THAT(outcome.err, Contains("cdem: error: plate/case.lua:2: ") && Contains(said));
   }
-  Place place;
+  PlateFolder place;
   CHECK_THAT(place.cdem({"run", "none.lua", "--ranks", "2"}).err, Contains("none.lua: no such file"));
   CHECK_THAT(place.cdem({"run", "plate/case.lua", "--ranks", "0"}).err, Contains("--ranks = 0: must be"));
   CHECK_THAT(place.cdem({"run", "plate/case.lua", "--ranks", "2", "--set", "stepps=3"}).err,
@@ -41,7 +41,7 @@ TEST_CASE("ranks: an error of the script is told once, with its exit code") {
 TEST_CASE("ranks: an output folder that goes while they run ends all with one message") {
   if (no_mpirun())
     return;
-  Place place("print 'begins'\nlocal till = os.time() + 2\nwhile os.time() < till do end");
+  PlateFolder place("print 'begins'\nlocal till = os.time() + 2\nwhile os.time() < till do end");
   auto running = std::async(std::launch::async, [&] {
     return place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"});
   });
@@ -95,7 +95,7 @@ void require_end_of_all(const std::string& fails, const std::string& solves, int
   std::string text = steps;
   text.replace(text.find("%s"), 2, fails);
   text.replace(text.find("%s"), 2, solves);
-  Place place(on_rank_0 + text);
+  PlateFolder place(on_rank_0 + text);
   // The signal does nothing: it tells when the rank fails.
   const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", ranks,
                                       "--threads", "1", "--checkpoint-every", "0.0001"},
@@ -132,7 +132,7 @@ TEST_CASE("ranks: a callback that looks at the model on one rank alone ends all 
   std::string text = steps;
   text.replace(text.find("%s"), 2, "if not on_rank_0 then model:max('velocity.x') end");
   text.replace(text.find("%s"), 2, "solve()");
-  Place place(on_rank_0 + text);
+  PlateFolder place(on_rank_0 + text);
   const Outcome outcome =
       place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2", "--threads", "1"});
   INFO(outcome.out << outcome.err);
@@ -146,7 +146,7 @@ TEST_CASE("ranks: a callback that looks at the model on one rank alone ends all 
 TEST_CASE("ranks: one rank that runs out of memory ends all") {
   if (no_mpirun())
     return;
-  Place place(std::string(on_rank_0) + R"(
+  PlateFolder place(std::string(on_rank_0) + R"(
 print "begins"
 local blocks = {}
 for i = 1, 1000 do blocks[i] = cdem.grid{ size = {1, 1, 1}, divisions = {40, 40, 40} } end
@@ -176,7 +176,7 @@ TEST_CASE("ranks: Ctrl-C and SIGTERM keep a checkpoint, from which another numbe
     return;
   for (const auto& [signal, ranks, again] :
        {std::array<int, 3>{SIGINT, 2, 3}, std::array<int, 3>{SIGTERM, 3, 1}}) {
-    Place place;
+    PlateFolder place;
     const Outcome stopped = place.cdem(
         {"run", "plate/case.lua", "--output", "out", "--ranks", std::to_string(ranks)}, signal, "begins");
     INFO(stopped.out << stopped.err);
@@ -197,7 +197,7 @@ TEST_CASE("ranks: Ctrl-C ends what never comes back") {
     return;
   for (const std::string text : {"print 'begins'\nstring.find(('a'):rep(40000), ('.-'):rep(20) .. 'b')\n",
                                  "print 'begins'\nwhile true do end"}) {
-    Place place(text);
+    PlateFolder place(text);
     const Outcome outcome =
         place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"}, SIGINT, "begins");
     CHECK(outcome.exit_code == 130);
@@ -211,7 +211,7 @@ TEST_CASE("ranks: when one is killed all end within ten seconds, and a checkpoin
   if (no_mpirun())
     return;
   for (const int rank : {1, 0}) {
-    Place place;
+    PlateFolder place;
     auto running = std::async(std::launch::async, [&] {
       return place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2", "--set",
                          "steps=100000000", "--checkpoint-every", "0.002"});

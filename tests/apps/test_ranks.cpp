@@ -16,7 +16,7 @@ TEST_CASE("ranks: the report is that of one process, told once", "[busy]") {
   if (no_mpirun())
     return;
   for (const char* const ranks : {"2", "3"}) {
-    Place place;
+    PlateFolder place;
     const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", ranks});
     INFO(outcome.out << outcome.err);
     CHECK(outcome.exit_code == 0);
@@ -33,7 +33,7 @@ TEST_CASE("ranks: the report is that of one process, told once", "[busy]") {
 TEST_CASE("ranks: those of a plain mpirun are the same") {
   if (no_mpirun())
     return;
-  Place place;
+  PlateFolder place;
   place.start.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
   const Outcome outcome = run_program({"/usr/bin/env", "mpirun", "-n", "2", "--oversubscribe", CDEM_PROGRAM,
                                        "run", "plate/case.lua", "--output", "out"},
@@ -57,7 +57,7 @@ std::vector<std::string> solve_physics(int ranks, int threads) {
 
 const std::string& physics_of_one() {
   static const std::string report = [] {
-    Place place(physics());
+    PlateFolder place(physics());
     REQUIRE(place.cdem(solve_physics(1, 1)).exit_code == 0);
     const std::string of_one = place.report();
     CHECK(std::count(of_one.begin(), of_one.end(), '{') > 12);
@@ -70,7 +70,7 @@ TEST_CASE("ranks: every kind of model ends in the bits of one process", "[busy]"
   if (no_mpirun())
     return;
   for (const auto& [ranks, threads] : {std::pair(1, 2), std::pair(2, 2), std::pair(3, 1), std::pair(8, 1)}) {
-    Place place(physics());
+    PlateFolder place(physics());
     place.start.limit = 250;
     const Outcome outcome = place.cdem(solve_physics(ranks, threads));
     INFO(ranks << " ranks of " << threads << " threads: " << outcome.err);
@@ -83,7 +83,7 @@ TEST_CASE("ranks: a slab goes to pieces on a rigid floor with the bits of one pr
   if (no_mpirun())
     return;
   const auto report_on = [](const char* ranks) {
-    Place place(read_file(CDEM_SOURCE "/tests/apps/ranks/slab.lua"));
+    PlateFolder place(read_file(CDEM_SOURCE "/tests/apps/ranks/slab.lua"));
     const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", ranks});
     INFO(ranks << " ranks: " << outcome.out << outcome.err);
     REQUIRE(outcome.exit_code == 0);
@@ -108,7 +108,7 @@ TEST_CASE("ranks: every kind of model, left in each of its stages, goes on with 
           "[busy]") {
   if (no_mpirun())
     return;
-  Place place(physics());
+  PlateFolder place(physics());
   place.start.limit = 250;
   const std::vector<std::string> stages = {"plate", "beam", "unit", "settle", "flow", "collapse", "shatter"};
   const std::vector<std::pair<int, int>> counts = {{2, 1}, {1, 2}, {3, 1}, {2, 1},
@@ -151,7 +151,7 @@ cdem.report{ { name = "hash", value = model.state_hash }, { name = "breaks", val
 )";
   std::string of_one;
   for (const int ranks : {1, 3}) {
-    Place place(text);
+    PlateFolder place(text);
     place.start.limit = 250;
     const Outcome outcome = place.cdem(solve_physics(ranks, 1));
     INFO(outcome.out << outcome.err);
@@ -176,7 +176,7 @@ model:run{ steps = 20 }
 model:run{ steps = 20 }
 cdem.report{ { name = "hash", value = model.state_hash } }
 )";
-  Place one(text), three(text);
+  PlateFolder one(text), three(text);
   REQUIRE(one.cdem(solve_physics(1, 1)).exit_code == 0);
   const Outcome outcome = three.cdem(solve_physics(3, 1));
   CHECK(outcome.exit_code == 0);
@@ -188,7 +188,7 @@ cdem.report{ { name = "hash", value = model.state_hash } }
 TEST_CASE("ranks: only rank 0 needs to see the script and the output folder, and all must run one program") {
   if (no_mpirun())
     return;
-  Place place;
+  PlateFolder place;
   place.start.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
   const fs::path elsewhere = place.folder / "elsewhere";
   fs::create_directories(elsewhere);
@@ -234,7 +234,7 @@ TEST_CASE("ranks: only rank 0 needs to see the script and the output folder, and
 TEST_CASE("ranks: a module of another build is refused in one line") {
   if (no_mpirun())
     return;
-  Place place;
+  PlateFolder place;
   const TempFolder elsewhere;
   fs::copy_file(CDEM_PROGRAM, elsewhere / "cdem");
   std::string module = read_file(fs::path(CDEM_PROGRAM).parent_path() / "cdem_mpi.so");
@@ -253,7 +253,7 @@ TEST_CASE("ranks: a module of another build is refused in one line") {
 TEST_CASE("ranks: the clock, chance and files are asked once for all, and go on alike") {
   if (no_mpirun())
     return;
-  Place place(R"lua(local cdem = require "cdem"
+  PlateFolder place(R"lua(local cdem = require "cdem"
 math.randomseed()
 local file = assert(io.open("notes.txt", "w"))
 assert(file:write(os.time(), " ", os.clock(), " ", math.random(), " ", os.date(), " ", cdem.elapsed(), "\n"))
@@ -295,7 +295,7 @@ TEST_CASE("ranks: what rank 0 cannot tell the others is refused in one line") {
   for (const auto& [text, said] :
        {std::pair("print(io.read())", "io.read: not with several ranks"),
         std::pair("assert(io.open('/dev/urandom', 'rb'))", "/dev/urandom: a device may never end")}) {
-    Place place(text);
+    PlateFolder place(text);
     const Outcome outcome =
         place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2", "--unsafe"});
     INFO(outcome.out << outcome.err);
@@ -309,7 +309,7 @@ TEST_CASE("ranks: a script that goes another way in one process is told so") {
   if (no_mpirun())
     return;
   // Addresses are not the same in two processes; these two lines differ in what they are called with.
-  Place place(
+  PlateFolder place(
       "local cdem = require 'cdem'\n"
       "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2000 }\n"
       "local model = cdem.model{ bodies = { { shape = cdem.grid{ size = {1, 1, 1}, divisions = {1, 1, 1} },\n"
@@ -324,7 +324,7 @@ TEST_CASE("ranks: a script that goes another way in one process is told so") {
 TEST_CASE("ranks: what does not solve one model is refused or done once") {
   if (no_mpirun())
     return;
-  Place place;
+  PlateFolder place;
   place.start.environment = {"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
   const auto ranks = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {"/usr/bin/env", "mpirun", "-q", "-n", "2", "--oversubscribe", CDEM_PROGRAM});

@@ -13,16 +13,16 @@ namespace fs = std::filesystem;
 namespace {
 
 // Large enough for two threads; it takes a second or so.
-const std::string plate = shaken_plate("{2.7, 1, 0.05}", "{54, 20, 1}", 500);
+const std::string long_plate = shaken_plate("{2.7, 1, 0.05}", "{54, 20, 1}", 500);
 
-struct Place : CaseFolder {
-  Place() : CaseFolder({{"plate/case.lua", plate}}) {}
+struct PlaceToResume : CaseFolder {
+  PlaceToResume() : CaseFolder({{"plate/case.lua", long_plate}}) {}
   fs::path results = folder / "results/plate";
 };
 
 std::string whole_report() {
   static const std::string report = [] {
-    Place place;
+    PlaceToResume place;
     REQUIRE(place.cdem({"run", "plate/case.lua", "--threads", "1"}).exit_code == 0);
     return read_file(place.results / "report.json");
   }();
@@ -33,7 +33,7 @@ std::string whole_report() {
 
 TEST_CASE("resume: after Ctrl-C and SIGTERM a run goes on with any number of threads to the same report") {
   for (const int signal : {SIGINT, SIGTERM}) {
-    Place place;
+    PlaceToResume place;
     const Outcome stopped =
         place.cdem({"run", "plate/case.lua", "--output", "results/plate"}, signal, "begins");
     CHECK(stopped.exit_code == 128 + signal);
@@ -64,8 +64,8 @@ TEST_CASE("resume: a run that goes on ends as an unbroken one: its closing line,
     CHECK_THAT(line, Contains(" broken (") && Contains("1 warning; results in "));
     return line;
   };
-  Place place;
-  std::string text = plate;
+  PlaceToResume place;
+  std::string text = long_plate;
   const std::string callback = "callback = function() ";
   text.insert(text.find(callback) + callback.size(), "if most == 0 then print 'shakes' end ");
   write_file(place.folder / "plate/case.lua", text);
@@ -80,7 +80,7 @@ TEST_CASE("resume: a run that goes on ends as an unbroken one: its closing line,
 }
 
 TEST_CASE("resume: kill -9 at any moment leaves a whole checkpoint to go on from") {
-  Place place;
+  PlaceToResume place;
   // A checkpoint whenever the run looks: most of the time one is being written.
   std::vector<std::string> command{"run", "plate/case.lua", "--checkpoint-every", "1e-9"};
   int killed = 0;
@@ -100,7 +100,7 @@ TEST_CASE("resume: kill -9 at any moment leaves a whole checkpoint to go on from
 }
 
 TEST_CASE("resume: what cannot be gone on from is refused in one line") {
-  Place place;
+  PlaceToResume place;
   const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& says) {
     const Outcome outcome = place.cdem(arguments);
     CHECK(outcome.exit_code == code);
@@ -125,19 +125,19 @@ TEST_CASE("resume: what cannot be gone on from is refused in one line") {
   write_file(file, other_format);
   refused({"resume", "results/plate"}, 4, "checksum");
   write_file(file, whole);
-  write_file(place.folder / "plate/case.lua", std::string(plate) + "-- one more line\n");
+  write_file(place.folder / "plate/case.lua", std::string(long_plate) + "-- one more line\n");
   refused({"resume", "results/plate"}, 2, "has changed since its checkpoint was written");
   fs::remove(place.folder / "plate/case.lua");
   refused({"resume", "results/plate"}, 4, "no such file");
   // None of this has cost the checkpoint.
-  write_file(place.folder / "plate/case.lua", plate);
+  write_file(place.folder / "plate/case.lua", long_plate);
   CHECK(place.cdem({"resume", "results/plate"}).exit_code == 0);
   CHECK(read_file(place.results / "report.json") == whole_report());
 }
 
 TEST_CASE("resume: a run that was started with --unsafe goes on only when that is said again") {
-  Place place;
-  write_file(place.folder / "plate/case.lua", std::string(plate) + "print(os.execute ~= nil)\n");
+  PlaceToResume place;
+  write_file(place.folder / "plate/case.lua", std::string(long_plate) + "print(os.execute ~= nil)\n");
   REQUIRE(place.cdem({"run", "plate/case.lua", "--unsafe"}, SIGINT, "begins").exit_code == 130);
   const Outcome refused = place.cdem({"resume", "results/plate"});
   CHECK(refused.exit_code == 2);
@@ -152,20 +152,20 @@ TEST_CASE("resume: a run that was started with --unsafe goes on only when that i
 TEST_CASE("resume: a script that failed after it had solved is mended and goes on, with --unsafe too") {
   const std::string wrong = "model:picture{ file = 'end.png', color = 'velocity.y' }\n";
   for (const bool unsafe : {false, true}) {
-    Place place;
+    PlaceToResume place;
     const std::vector<std::string> flag =
         unsafe ? std::vector<std::string>{"--unsafe"} : std::vector<std::string>{};
     const auto with_flag = [&](std::vector<std::string> words) {
       words.insert(words.end(), flag.begin(), flag.end());
       return words;
     };
-    write_file(place.folder / "plate/case.lua", plate + wrong);
+    write_file(place.folder / "plate/case.lua", long_plate + wrong);
     const Outcome failed = place.cdem(with_flag({"run", "plate/case.lua"}));
     CHECK(failed.exit_code == 2);
     CHECK_THAT(failed.err, Contains("color: no such key; did you mean colour?"));
     const std::string command = std::string("cdem resume results/plate") + (unsafe ? " --unsafe" : "") + "\n";
     CHECK_THAT(failed.out, Contains("what was solved is kept: mend the script, then go on with " + command));
-    write_file(place.folder / "plate/case.lua", std::string(plate) + "print 'mended'\n");
+    write_file(place.folder / "plate/case.lua", std::string(long_plate) + "print 'mended'\n");
     const Outcome ended = place.cdem(with_flag({"resume", "results/plate"}));
     INFO(ended.err);
     CHECK(ended.exit_code == 0);
@@ -178,14 +178,14 @@ TEST_CASE("resume: a script that failed after it had solved is mended and goes o
 
 TEST_CASE("resume: a run goes on from whatever folder one stands in") {
   // Functions of the script and of a file that it requires, in calls and stages before the stop.
-  std::string text = plate;
+  std::string text = long_plate;
   const std::string begins = "print \"begins\"\n";
   text.replace(text.find(begins), begins.size(), "require 'parts.push' (model)\n" + begins);
   std::string whole;
   for (const auto& [stand, output] : std::vector<std::pair<std::string, std::string>>{
            {"job", "out"}, {"", "job/out"}, {"elsewhere", "../job/out"}, {"job/out", "."}}) {
     INFO(stand);
-    Place place;
+    PlaceToResume place;
     write_file(place.folder / "job/case.lua", text);
     write_file(place.folder / "job/parts/push.lua",
                "return function(model)\n"
@@ -212,8 +212,8 @@ TEST_CASE("resume: a run goes on from whatever folder one stands in") {
 }
 
 TEST_CASE("resume: a checkpoint of another run in the folder is refused") {
-  Place one, other;
-  for (Place* place : {&one, &other})
+  PlaceToResume one, other;
+  for (PlaceToResume* place : {&one, &other})
     CHECK(place->cdem({"run", "plate/case.lua", "--output", "results/plate"}, SIGINT, "begins").exit_code ==
           130);
   for (const std::string name : {"checkpoint_1.cdem", "checkpoint_2.cdem"}) {

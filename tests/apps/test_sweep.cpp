@@ -21,8 +21,8 @@ if b == 99 then while true do end end
 cdem.report{ { name = "sum_m", value = a + b, unit = "m" } }
 )";
 
-struct Place : CaseFolder {
-  Place() : CaseFolder({{"sum/case.lua", sum}}) {}
+struct SweepFolder : CaseFolder {
+  SweepFolder() : CaseFolder({{"sum/case.lua", sum}}) {}
   std::vector<std::string> table() const {
     return lines_of(read_file(folder / "results/sum-sweep/sweep.csv"));
   }
@@ -31,7 +31,7 @@ struct Place : CaseFolder {
 } // namespace
 
 TEST_CASE("a sweep runs every combination and gathers the figures") {
-  const Place cdem;
+  const SweepFolder cdem;
   const Outcome outcome =
       cdem({"sweep", "sum/case.lua", "--set", "a=1,2", "--set", "b=10,20,30", "--jobs", "2"});
   INFO(outcome.out << outcome.err);
@@ -51,7 +51,7 @@ TEST_CASE("a sweep runs every combination and gathers the figures") {
 }
 
 TEST_CASE("a run of a sweep may read what an earlier run beside it wrote, wherever the folder is") {
-  const Place cdem;
+  const SweepFolder cdem;
   write_file(cdem.folder / "study/maker.lua",
              "local cdem = require 'cdem'\n"
              "local x = cdem.parameter{ name = 'x', default = 1 }\n"
@@ -75,7 +75,7 @@ TEST_CASE("a run of a sweep may read what an earlier run beside it wrote, wherev
 }
 
 TEST_CASE("a run of a sweep that fails is named, and the others go on") {
-  const Place cdem;
+  const SweepFolder cdem;
   const Outcome outcome = cdem({"sweep", "sum/case.lua", "--set", "a=1,13,2"});
   CHECK(outcome.exit_code == 2);
   CHECK_THAT(outcome.out, Contains("a=13: exit code 2") && Contains("13 brings no luck"));
@@ -89,7 +89,7 @@ TEST_CASE("a run of a sweep that fails is named, and the others go on") {
 }
 
 TEST_CASE("Ctrl-C ends a sweep and every run of it") {
-  Place cdem;
+  SweepFolder cdem;
   cdem.start.signal = SIGINT;
   cdem.start.signal_after = "a=1 b=1: done";
   const Outcome outcome = cdem({"sweep", "sum/case.lua", "--set", "a=1", "--set", "b=1,99", "--jobs", "1"});
@@ -101,7 +101,7 @@ TEST_CASE("Ctrl-C ends a sweep and every run of it") {
 }
 
 TEST_CASE("runs of a sweep end with it, even when it is killed") {
-  Place cdem;
+  SweepFolder cdem;
   write_file(cdem.folder / "sum/case.lua", R"(
 local cdem = require "cdem"
 local a = cdem.parameter{ name = "a", default = 1 }
@@ -137,7 +137,7 @@ while not has_begun() do end
 }
 
 TEST_CASE("a sweep that was stopped says what stands and what can be done, which then works") {
-  Place cdem;
+  SweepFolder cdem;
   write_file(cdem.folder / "sum/case.lua", R"(
 local cdem = require "cdem"
 local a = cdem.parameter{ name = "a", default = 1 }
@@ -182,7 +182,7 @@ cdem.report{ { name = "a", value = a } }
 }
 
 TEST_CASE("a script can sweep another one") {
-  const Place cdem;
+  const SweepFolder cdem;
   write_file(cdem.folder / "sum/all.lua", R"(
 local cdem = require "cdem"
 local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 5 } }, jobs = 2 }
@@ -197,7 +197,7 @@ for _, run in ipairs(runs) do print("a gives " .. run.figures.sum_m) end
 }
 
 TEST_CASE("a run that fails in a script's sweep is a warning, counted and in the report") {
-  const Place cdem;
+  const SweepFolder cdem;
   write_file(cdem.folder / "sum/all.lua", R"(
 local cdem = require "cdem"
 local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 13, b = 2 } } }
@@ -220,7 +220,7 @@ cdem.report{ { name = "sum", value = runs[1].figures.sum_m } }
 }
 
 TEST_CASE("a check of a script that sweeps has no figures, whatever an earlier run has left") {
-  const Place cdem;
+  const SweepFolder cdem;
   write_file(cdem.folder / "sum/all.lua", R"(
 local cdem = require "cdem"
 local runs = cdem.sweep{ script = "case.lua", set = { { a = 1 }, { a = 5 } }, jobs = 2 }
@@ -235,7 +235,7 @@ for _, run in ipairs(runs) do print("a gives " .. tostring(run.figures.sum_m)) e
 }
 
 TEST_CASE("a script that was stopped in a sweep goes on with the runs that had not ended") {
-  Place cdem;
+  SweepFolder cdem;
   const std::string swept = R"(
 local cdem = require "cdem"
 local a = cdem.parameter{ name = "a", default = 1 }
@@ -282,7 +282,7 @@ cdem.report{ { name = "sum", value = sum } }
 }
 
 TEST_CASE("a script that fails behind a sweep is mended and goes on") {
-  const Place cdem;
+  const SweepFolder cdem;
   const std::string all = R"(
 local cdem = require "cdem"
 local run = cdem.sweep{ script = "case.lua", set = { { a = 1 } } }[1]
@@ -326,7 +326,7 @@ for _, run in ipairs(runs) do print(run.set.a .. " gives " .. (run.figures.sum_m
   for (const bool by_script : {false, true})
     for (const bool unsafe : {false, true}) {
       INFO((by_script ? "cdem.sweep" : "cdem sweep") << (unsafe ? ", unsafe" : ""));
-      const Place cdem;
+      const SweepFolder cdem;
       write_file(cdem.folder / "sum/case.lua", text);
       write_file(cdem.folder / "sum/all.lua", all);
       write_file(cdem.folder / "sum/helper.lua", helper(10));
@@ -360,7 +360,7 @@ for _, run in ipairs(runs) do print(run.set.a .. " gives " .. (run.figures.sum_m
 }
 
 TEST_CASE("sweep --slurm: a job array of one run a task, whose rest the same command writes anew") {
-  const Place cdem;
+  const SweepFolder cdem;
   // An srun that runs what it is given here.
   write_file(cdem.folder / "bin/srun",
              "#!/bin/sh\nwhile [ \"${1#--}\" != \"$1\" ]; do shift; done\nexec \"$@\"\n");
@@ -401,7 +401,7 @@ TEST_CASE("sweep --slurm: a job array of one run a task, whose rest the same com
 }
 
 TEST_CASE("sweep --slurm: a task that was stopped goes on from its checkpoint") {
-  const Place cdem;
+  const SweepFolder cdem;
   write_file(cdem.folder / "sum/case.lua", R"(local cdem = require "cdem"
 local steps = cdem.parameter{ name = "steps", default = 1 }
 local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2000 }

@@ -13,15 +13,15 @@ using namespace geom;
 
 namespace {
 
-const TetMesh box = box_mesh({1, 2, 3}, {3, 4, 5}, 0.15, 7);
+const TetMesh brick = box_mesh({1, 2, 3}, {3, 4, 5}, 0.15, 7);
 
 } // namespace
 
 TEST_CASE("every face of every tet is either outside or between two tets") {
-  const auto outer = outer_faces(box);
-  const auto inner = inner_faces(box);
+  const auto outer = outer_faces(brick);
+  const auto inner = inner_faces(brick);
   CHECK(outer.size() == 2 * 2 * (3 * 4 + 4 * 5 + 5 * 3)); // two triangles on each cell's outer face
-  CHECK(outer.size() + 2 * inner.size() == 4 * box.tets.size());
+  CHECK(outer.size() + 2 * inner.size() == 4 * brick.tets.size());
   std::set<std::array<int, 2>> met; // tet, face
   for (const OuterFace& f : outer)
     CHECK(met.insert({f.tet, f.face}).second);
@@ -31,14 +31,14 @@ TEST_CASE("every face of every tet is either outside or between two tets") {
 }
 
 TEST_CASE("neighbours are mutual and share three nodes, none of which is the corner opposite to the face") {
-  const std::vector<int> other = face_neighbours(box.tets, box.nodes.size());
-  REQUIRE(other.size() == 4 * box.tets.size());
+  const std::vector<int> other = face_neighbours(brick.tets, brick.nodes.size());
+  REQUIRE(other.size() == 4 * brick.tets.size());
   bool mutual = true, shared = true;
   for (std::size_t i = 0; i < other.size(); ++i) {
     if (other[i] < 0)
       continue;
     mutual = mutual && other[other[i]] == static_cast<int>(i);
-    const Tet &a = box.tets[i / 4], &b = box.tets[other[i] / 4];
+    const Tet &a = brick.tets[i / 4], &b = brick.tets[other[i] / 4];
     for (std::size_t c = 0; c < 4; ++c)
       shared = shared && (std::count(b.begin(), b.end(), a[c]) == 1) == (c != i % 4);
   }
@@ -49,39 +49,39 @@ TEST_CASE("neighbours are mutual and share three nodes, none of which is the cor
 TEST_CASE("outer faces point outward: the divergence theorem gives the volume") {
   double flux = 0; // of x over the outside, 3 V
   Vec3 sum = Vec3::Zero();
-  for (const OuterFace& f : outer_faces(box)) {
-    const Vec3 &a = box.nodes[f.nodes[0]], &b = box.nodes[f.nodes[1]], &c = box.nodes[f.nodes[2]];
+  for (const OuterFace& f : outer_faces(brick)) {
+    const Vec3 &a = brick.nodes[f.nodes[0]], &b = brick.nodes[f.nodes[1]], &c = brick.nodes[f.nodes[2]];
     const Vec3 area = 0.5 * (b - a).cross(c - a);
     flux += area.dot(a + b + c) / 3;
     sum += area;
     for (std::size_t i = 0; i < 3; ++i)
-      CHECK(f.nodes[i] == box.tets[f.tet][tet_faces[f.face][i]]);
+      CHECK(f.nodes[i] == brick.tets[f.tet][tet_faces[f.face][i]]);
   }
   CHECK(flux == Approx(3 * 6.).epsilon(1e-12));
   CHECK(sum.norm() < 1e-12);
 }
 
 TEST_CASE("an inner face is seen from outside its first tet and lists the same nodes in both") {
-  for (const InnerFace& f : inner_faces(box)) {
+  for (const InnerFace& f : inner_faces(brick)) {
     REQUIRE(f.tets[0] < f.tets[1]);
     for (std::size_t s = 0; s < 2; ++s)
       for (std::size_t i = 0; i < 3; ++i) {
-        REQUIRE(box.tets[f.tets[s]][f.corners[s][i]] == f.nodes[i]);
+        REQUIRE(brick.tets[f.tets[s]][f.corners[s][i]] == f.nodes[i]);
         REQUIRE(f.corners[s][i] != f.faces[s]); // the corner opposite to it
       }
-    const Vec3& a = box.nodes[f.nodes[0]];
-    const Vec3 normal = (box.nodes[f.nodes[1]] - a).cross(box.nodes[f.nodes[2]] - a);
-    REQUIRE(normal.dot(box.nodes[box.tets[f.tets[0]][f.faces[0]]] - a) < 0);
-    REQUIRE(normal.dot(box.nodes[box.tets[f.tets[1]][f.faces[1]]] - a) > 0);
+    const Vec3& a = brick.nodes[f.nodes[0]];
+    const Vec3 normal = (brick.nodes[f.nodes[1]] - a).cross(brick.nodes[f.nodes[2]] - a);
+    REQUIRE(normal.dot(brick.nodes[brick.tets[f.tets[0]][f.faces[0]]] - a) < 0);
+    REQUIRE(normal.dot(brick.nodes[brick.tets[f.tets[1]][f.faces[1]]] - a) > 0);
   }
 }
 
 TEST_CASE("lists of faces are in the order of tets and their faces") {
-  const auto outer = outer_faces(box);
+  const auto outer = outer_faces(brick);
   CHECK(std::is_sorted(outer.begin(), outer.end(), [](const OuterFace& a, const OuterFace& b) {
     return std::tie(a.tet, a.face) < std::tie(b.tet, b.face);
   }));
-  const auto inner = inner_faces(box);
+  const auto inner = inner_faces(brick);
   CHECK(std::is_sorted(inner.begin(), inner.end(), [](const InnerFace& a, const InnerFace& b) {
     return std::tie(a.tets[0], a.faces[0]) < std::tie(b.tets[0], b.faces[0]);
   }));

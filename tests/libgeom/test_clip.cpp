@@ -8,18 +8,18 @@
 #include "libgeom/solid/facets.hpp"
 #include "libgeom/solid/read_surface.hpp"
 #include "tests/libgeom/assembly_laws.hpp"
+#include "tests/libgeom/degree.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace geom;
 using Catch::Matchers::Contains;
+using testing::pi;
 using testing::refusal;
 using testing::total_volume;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void add_faces(Surface& surface, const Polyhedron& shape) {
   const int first = static_cast<int>(surface.points.size());

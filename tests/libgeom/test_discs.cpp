@@ -3,6 +3,7 @@
 #include "libgeom/assembly/discs.hpp"
 #include "libgeom/core/error.hpp"
 #include "tests/libgeom/assembly_laws.hpp"
+#include "tests/libgeom/degree.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -11,10 +12,9 @@
 
 using namespace geom;
 using Catch::Matchers::Contains;
+using testing::degree;
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 Disc level_disc(const Vec3& centre, double radius, std::int64_t id = 1) {
   return {id, centre, 0, 0, radius, "fracture"};
@@ -33,7 +33,7 @@ std::map<std::string, double> areas(const Assembly& a) {
   return sum;
 }
 
-std::string refusal(const std::string& text) {
+std::string refusal_of_discs(const std::string& text) {
   try {
     read_discs(text, "dfn.csv");
   } catch (const InputError& e) {
@@ -134,24 +134,26 @@ TEST_CASE("tables of discs are read by the names of their columns", "[discs]") {
 }
 
 TEST_CASE("tables of discs that are damaged or hostile are refused in one line", "[discs]") {
-  CHECK_THAT(refusal(""), Contains("file \"dfn.csv\": is empty"));
-  CHECK_THAT(refusal(head), Contains("no disc"));
-  CHECK_THAT(refusal("id,x,y,z,dip,radius,set\n1,1,1,1,1,1,a\n"), Contains("no column \"dip_direction\""));
-  CHECK_THAT(refusal("id,id,x,y,z,dip,dip_direction,radius,set\n"), Contains("more than one column \"id\""));
-  CHECK_THAT(refusal(head + "1,0,0,0,30\n"), Contains("line 2 has 5 values: must be 8"));
-  CHECK_THAT(refusal(head + "1,0,0,0,91,0,1,a\n"),
+  CHECK_THAT(refusal_of_discs(""), Contains("file \"dfn.csv\": is empty"));
+  CHECK_THAT(refusal_of_discs(head), Contains("no disc"));
+  CHECK_THAT(refusal_of_discs("id,x,y,z,dip,radius,set\n1,1,1,1,1,1,a\n"),
+             Contains("no column \"dip_direction\""));
+  CHECK_THAT(refusal_of_discs("id,id,x,y,z,dip,dip_direction,radius,set\n"),
+             Contains("more than one column \"id\""));
+  CHECK_THAT(refusal_of_discs(head + "1,0,0,0,30\n"), Contains("line 2 has 5 values: must be 8"));
+  CHECK_THAT(refusal_of_discs(head + "1,0,0,0,91,0,1,a\n"),
              Contains("line 2, column \"dip\": \"91\": must be a number from 0 to 90"));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,-1,1,a\n"), Contains("column \"dip_direction\": \"-1\""));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,0,0,a\n"), Contains("column \"radius\": \"0\""));
-  CHECK_THAT(refusal(head + "1,nan,0,0,30,0,1,a\n"), Contains("column \"x\": \"nan\""));
-  CHECK_THAT(refusal(head + "1,1e300,0,0,30,0,1,a\n"), Contains("column \"x\": \"1e300\""));
-  CHECK_THAT(refusal(head + "1,0x,0,0,30,0,1,a\n"), Contains("column \"x\": \"0x\""));
-  CHECK_THAT(refusal(head + "1.5,0,0,0,30,0,1,a\n"),
+  CHECK_THAT(refusal_of_discs(head + "1,0,0,0,30,-1,1,a\n"), Contains("column \"dip_direction\": \"-1\""));
+  CHECK_THAT(refusal_of_discs(head + "1,0,0,0,30,0,0,a\n"), Contains("column \"radius\": \"0\""));
+  CHECK_THAT(refusal_of_discs(head + "1,nan,0,0,30,0,1,a\n"), Contains("column \"x\": \"nan\""));
+  CHECK_THAT(refusal_of_discs(head + "1,1e300,0,0,30,0,1,a\n"), Contains("column \"x\": \"1e300\""));
+  CHECK_THAT(refusal_of_discs(head + "1,0x,0,0,30,0,1,a\n"), Contains("column \"x\": \"0x\""));
+  CHECK_THAT(refusal_of_discs(head + "1.5,0,0,0,30,0,1,a\n"),
              Contains("column \"id\": \"1.5\": must be a whole number"));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,0,1,\n"), Contains("column \"set\": an empty cell"));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,0,1," + std::string(100000, 'a') + "\n"),
+  CHECK_THAT(refusal_of_discs(head + "1,0,0,0,30,0,1,\n"), Contains("column \"set\": an empty cell"));
+  CHECK_THAT(refusal_of_discs(head + "1,0,0,0,30,0,1," + std::string(100000, 'a') + "\n"),
              Contains("1 to 64 letters"));
-  CHECK_THAT(refusal(head + "1,0,0,0,30,0,1,a\n1,1,1,1,30,0,1,a\n"),
+  CHECK_THAT(refusal_of_discs(head + "1,0,0,0,30,0,1,a\n1,1,1,1,30,0,1,a\n"),
              Contains("line 3, column \"id\": \"1\""));
-  CHECK_THAT(refusal(std::string("\0\1\2\n", 4)), Contains("bytes that are no text"));
+  CHECK_THAT(refusal_of_discs(std::string("\0\1\2\n", 4)), Contains("bytes that are no text"));
 }

@@ -1,6 +1,7 @@
 // Joint sets: orientation and spacing of the cut faces, against their definitions.
 #include "libgeom/assembly/builders.hpp"
 #include "tests/libgeom/assembly_laws.hpp"
+#include "tests/libgeom/degree.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
@@ -9,10 +10,9 @@
 #include <cmath>
 
 using namespace geom;
+using testing::degree;
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 // Upward unit normals and offsets of all faces that do not lie on the box's sides.
 std::vector<Plane> joint_faces(const Assembly& assembly) {

@@ -2,17 +2,18 @@
 #include "libgeom/assembly/random_discs.hpp"
 #include "libgeom/core/error.hpp"
 #include "libgeom/core/portable.hpp"
+#include "tests/libgeom/degree.hpp"
 #include "tests/support/refusal.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace geom;
 using Catch::Matchers::Contains;
+using testing::degree;
+using testing::pi;
 using testing::refusal;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
 
 RandomDiscs set_of(const RadiusOptions& radius, double p32, double kappa = 30) {
   RandomDiscs set;

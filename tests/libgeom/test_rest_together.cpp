@@ -1,6 +1,7 @@
 // Boxes that come to rest together, leaning and standing on each other.
 #include "libgeom/placement/rest_together.hpp"
 #include "tests/libgeom/box_surface.hpp"
+#include "tests/libgeom/degree.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -8,6 +9,7 @@
 
 using namespace geom;
 using testing::box_surface;
+using testing::degree;
 
 namespace {
 
@@ -44,10 +46,6 @@ std::vector<Pose> at(const std::vector<Vec3>& places) {
   return poses;
 }
 
-double deg(double angle) {
-  return angle * M_PI / 180;
-}
-
 } // namespace
 
 TEST_CASE("cubes that hang over each other come to stand on each other") {
@@ -71,7 +69,7 @@ TEST_CASE("cubes slide down an incline until they lean on each other and on a po
   const Features post = features_of(box_surface({1, 4, 4}, {-3, 0, 2}));
   const RestTogether rest =
       come_to_rest_together(cube(), at({{-1.5, 0, 0.501}, {0, 0, 0.501}, {1.3, 0, 0.501}, {2.9, 0, 0.501}}),
-                            {&ground(), &post}, resting(deg(35), std::tan(deg(15))));
+                            {&ground(), &post}, resting(35 * degree, std::tan(15 * degree)));
   REQUIRE(rest.still);
   for (int i = 0; i < 4; ++i) {
     INFO("cube " << i);
@@ -84,14 +82,14 @@ TEST_CASE("cubes slide down an incline until they lean on each other and on a po
 TEST_CASE("cubes on an incline less steep than friction rest where they are") {
   const std::vector<Vec3> places{{-1.5, 0, 0.501}, {0, 0, 0.501}, {0, 0, 1.502}, {1.3, 0, 0.501}};
   const RestTogether rest =
-      come_to_rest_together(cube(), at(places), {&ground()}, resting(deg(20), std::tan(deg(30))));
+      come_to_rest_together(cube(), at(places), {&ground()}, resting(20 * degree, std::tan(30 * degree)));
   REQUIRE(rest.still);
   for (std::size_t i = 0; i < places.size(); ++i)
     CHECK((rest.poses[i].translation - places[i]).norm() < 2e-3);
 }
 
 TEST_CASE("of two cubes that slide on the lower one is put back, the other comes to lean on it") {
-  RestOptions options = resting(deg(35), std::tan(deg(15)));
+  RestOptions options = resting(35 * degree, std::tan(15 * degree));
   options.way = 1;
   const RestTogether rest =
       come_to_rest_together(cube(), at({{1.4, 0, 0.501}, {0, 0, 0.501}}), {&ground()}, options);
@@ -104,7 +102,7 @@ TEST_CASE("of two cubes that slide on the lower one is put back, the other comes
 
 TEST_CASE("a cube that nothing holds is put back and stays, the others go on") {
   const Features post = features_of(box_surface({1, 1, 4}, {-1, 3, 2}));
-  RestOptions options = resting(deg(30), std::tan(deg(15)));
+  RestOptions options = resting(30 * degree, std::tan(15 * degree));
   options.way = 1;
   const Vec3 free(0, 0, 0.501), above(0.5, 3, 0.501);
   const RestTogether rest = come_to_rest_together(cube(), at({free, above}), {&ground(), &post}, options);

@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string head =
+const std::string bodies_head =
     opening +
     "local rock = cdem.elastic{ youngs_modulus = 1e8, poissons_ratio = 0.2, density = 2500 }\n"
     "local bond = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6 }\n"
@@ -21,11 +21,12 @@ const std::string head =
 } // namespace
 
 TEST_CASE("a mesh in two parts says so and is two units that move by themselves", "[lua]") {
-  const std::string text = head + "assert(pair.parts == 2 and tostring(pair):find('in 2 parts'))\n"
-                                  "local model = cdem.model{ bodies = { { shape = pair, material = rock, "
-                                  "element = 'rigid', name = 'pair' } },\n"
-                                  "  contacts = { default = cdem.coulomb{ friction_angle = 30 } } }\n"
-                                  "assert(model:counts().blocks == 2)\n";
+  const std::string text = bodies_head +
+                           "assert(pair.parts == 2 and tostring(pair):find('in 2 parts'))\n"
+                           "local model = cdem.model{ bodies = { { shape = pair, material = rock, "
+                           "element = 'rigid', name = 'pair' } },\n"
+                           "  contacts = { default = cdem.coulomb{ friction_angle = 30 } } }\n"
+                           "assert(model:counts().blocks == 2)\n";
   Script script(text);
   script.settings.check_only = true;
   CHECK(script.error() == "");
@@ -43,7 +44,7 @@ TEST_CASE("a mesh in two parts says so and is two units that move by themselves"
 TEST_CASE("one part of a mesh turns rigid and back while the other deforms", "[lua]") {
   CHECK(
       error_of(
-          head +
+          bodies_head +
           "local model = cdem.model{ bodies = { { shape = pair, material = rock, name = 'pair' } } }\n"
           "local first = cdem.select.units{ body = 'pair', numbers = {1} }\n"
           "assert(model:make_rigid{ on = first } == 1)\n"
@@ -58,7 +59,7 @@ TEST_CASE("one part of a mesh turns rigid and back while the other deforms", "[l
 TEST_CASE("a pile of units in loose parts falls part by part", "[lua]") {
   CHECK(
       error_of(
-          head +
+          bodies_head +
           "local floor = cdem.box_mesh{ size = {12, 12, 1}, divisions = {2, 2, 1} }\n"
           "local pile = cdem.drop{ unit = pair, count = 2, onto = floor }\nassert(#pile == 2)\n"
           "local model = cdem.model{ bodies = { { shape = floor, material = rock, element = 'rigid', name = "
@@ -73,7 +74,7 @@ TEST_CASE("a pile of units in loose parts falls part by part", "[lua]") {
 TEST_CASE("the tetrahedra of a mesh become blocks that are bonded, fall and come apart", "[lua]") {
   CHECK(
       error_of(
-          head +
+          bodies_head +
           "local mesh = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2} }\n"
           "local shape = cdem.blocks{ mesh = mesh }\n"
           "assert(#shape == 48)\nclose(shape:volume(), 1)\n"
@@ -87,13 +88,15 @@ TEST_CASE("the tetrahedra of a mesh become blocks that are bonded, fall and come
 }
 
 TEST_CASE("zone_size gives blocks a finer mesh, and is refused where it means nothing", "[lua]") {
-  CHECK(error_of(head + "local function tets(zone_size)\n  return cdem.model{ bodies = { { shape = cells, "
-                        "material = rock, joint = bond, zone_size = zone_size } } }:counts()\nend\n"
-                        "local star, zoned = tets(nil), tets(0.2)\n"
-                        "assert(star.blocks == 6 and zoned.blocks == 6 and zoned.tets > 2 * star.tets)\n"
-                        "assert(zoned.interfaces == star.interfaces and zoned.bonds > star.bonds)") == "");
+  CHECK(error_of(bodies_head +
+                 "local function tets(zone_size)\n  return cdem.model{ bodies = { { shape = cells, "
+                 "material = rock, joint = bond, zone_size = zone_size } } }:counts()\nend\n"
+                 "local star, zoned = tets(nil), tets(0.2)\n"
+                 "assert(star.blocks == 6 and zoned.blocks == 6 and zoned.tets > 2 * star.tets)\n"
+                 "assert(zoned.interfaces == star.interfaces and zoned.bonds > star.bonds)") == "");
   const auto refused = [](const std::string& body) {
-    return error_of(head + "cdem.model{ bodies = { { material = rock, joint = bond, " + body + " } } }");
+    return error_of(bodies_head + "cdem.model{ bodies = { { material = rock, joint = bond, " + body +
+                    " } } }");
   };
   CHECK_THAT(refused("shape = pair, zone_size = 0.2"), Contains("bodies[1].zone_size: only for an assembly"));
   CHECK_THAT(refused("shape = cells, zone_size = 0"), Contains("zone_size = 0: must be > 0"));
@@ -102,7 +105,7 @@ TEST_CASE("zone_size gives blocks a finer mesh, and is refused where it means no
 
 TEST_CASE("an assembly becomes one mesh whose regions are its blocks", "[lua]") {
   CHECK(error_of(
-            head +
+            bodies_head +
             "local solid = cells:solid()\nassert(#solid == 6)\n"
             "local mesh = solid:mesh{ size = 0.4 }\nassert(mesh.parts == 1)\nclose(mesh:volume(), 1, 1e-6)\n"
             "local blocks, regions = cells:blocks(), solid:regions()\n"
@@ -112,14 +115,15 @@ TEST_CASE("an assembly becomes one mesh whose regions are its blocks", "[lua]") 
             "local along, all = model('regions'), model('all')\n"
             "assert(along.bonds > 0 and all.bonds > 2 * along.bonds and along.tets == all.tets)") == "");
   // Two blocks that do not touch: two parts, each of which moves by itself.
-  CHECK(error_of(head + "local two = cdem.merge{ shapes = { cdem.box{ size = {1, 1, 1} },\n"
-                        "  cdem.box{ size = {1, 1, 1}, origin = {2, 0, 0} } } }\n"
-                        "assert(two:solid():mesh{ size = 1 }.parts == 2)") == "");
+  CHECK(error_of(bodies_head + "local two = cdem.merge{ shapes = { cdem.box{ size = {1, 1, 1} },\n"
+                               "  cdem.box{ size = {1, 1, 1}, origin = {2, 0, 0} } } }\n"
+                               "assert(two:solid():mesh{ size = 1 }.parts == 2)") == "");
 }
 
 TEST_CASE("bodies start with velocity, spin or both", "[lua]") {
   const std::string model =
-      head + "local model = cdem.model{ bodies = { { shape = cells, material = rock, joint = bond } } }\n";
+      bodies_head +
+      "local model = cdem.model{ bodies = { { shape = cells, material = rock, joint = bond } } }\n";
   CHECK(error_of(model +
                  "model:initial_velocity{ velocity = {1, 0, 0}, angular_velocity = {0, 0, 2} }\n"
                  "close(model:mean('velocity.x'), 1, 1e-9)\nclose(model:mean('velocity.y'), 0, 1e-9)\n"

@@ -10,7 +10,7 @@ using Catch::Matchers::Equals;
 
 namespace {
 
-const std::string head =
+const std::string earthquakes_head =
     "local cdem = require 'cdem'\n"
     "local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = 2500 }\n"
     "local m = cdem.model{ bodies = { { name = 'rock', shape = cdem.box_mesh{ size = {1, 1, 2}, divisions = "
@@ -62,7 +62,7 @@ TEST_CASE("records that are none are refused in one line", "[lua][earthquake]") 
 TEST_CASE("supports, loads and gravity follow records, lists and functions", "[lua][earthquake]") {
   CHECK_THAT(
       error_of(
-          head +
+          earthquakes_head +
           "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = { {0, 0}, {1e-4, 1}, {2e-4, 0} } }\n"
           "m:traction{ on = 'z+', stress = {1e3, 0, 0}, amplitude = { times = {0, 1}, values = {0, 1} } }\n"
           "m:gravity{ vector = function(t) return {math.sin(t), 0, -9.81} end }\n"
@@ -71,25 +71,27 @@ TEST_CASE("supports, loads and gravity follow records, lists and functions", "[l
           "assert(math.abs(m:mean('displacement.x', 'z-') - 1e-4) < 1e-6)\n"
           "local h = m:history()\nassert(#h.foot_x == #h.time and #h.rock_z == #h.time)"),
       Equals(""));
-  CHECK_THAT(error_of(head + "m:fix{ on = 'z-', amplitude = { {0, 0}, {1, 1} } }"),
+  CHECK_THAT(error_of(earthquakes_head + "m:fix{ on = 'z-', amplitude = { {0, 0}, {1, 1} } }"),
              Contains("goes with velocity"));
-  CHECK_THAT(error_of(head + "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = { {0, 0}, {0, 1} } }"),
-             Contains("amplitude: point 2"));
-  CHECK_THAT(error_of(head + "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = 3 }"),
+  CHECK_THAT(
+      error_of(earthquakes_head + "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = { {0, 0}, {0, 1} } }"),
+      Contains("amplitude: point 2"));
+  CHECK_THAT(error_of(earthquakes_head + "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = 3 }"),
              Contains("a list { {time, value}"));
   CHECK_THAT(
-      error_of(head +
+      error_of(earthquakes_head +
                "m:fix{ on = 'z-', velocity = {1, 0, 0}, amplitude = { times = {0, 1}, values = {0, 1}, "
                "outsides = 'zero' } }"),
       Contains("amplitude: outsides: no such key; did you mean outside?"));
-  CHECK_THAT(error_of(head + "m:gravity{ vector = function(t) return 3 end }"),
+  CHECK_THAT(error_of(earthquakes_head + "m:gravity{ vector = function(t) return 3 end }"),
              Contains("three finite numbers"));
-  CHECK_THAT(error_of(head + "m:record_reaction{ name = 'a', on = 'nowhere' }"), Contains("nowhere"));
+  CHECK_THAT(error_of(earthquakes_head + "m:record_reaction{ name = 'a', on = 'nowhere' }"),
+             Contains("nowhere"));
 }
 
 TEST_CASE("an amplitude's times begin at `since`", "[lua][earthquake]") {
   // The support follows the list from the moment it is given on: in the second stage it moves by the area below the list.
-  CHECK_THAT(error_of(head +
+  CHECK_THAT(error_of(earthquakes_head +
                       "m:run{ duration = 3e-4 }\n"
                       "m:fix{ on = 'z-', velocity = {1, 0, 0}, since = m.time,\n"
                       "       amplitude = { {0, 0}, {1e-4, 1}, {2e-4, 0} } }\n"
@@ -101,12 +103,12 @@ TEST_CASE("an amplitude's times begin at `since`", "[lua][earthquake]") {
                       "         amplitude = function(t) least = math.min(least, t); return 1 end }\n"
                       "least = math.huge\nm:run{ duration = 1e-4 }\nassert(math.abs(least) < 1e-12, least)"),
              Equals(""));
-  CHECK_THAT(error_of(head + "m:traction{ on = 'z+', stress = {1, 0, 0}, since = 1 }"),
+  CHECK_THAT(error_of(earthquakes_head + "m:traction{ on = 'z+', stress = {1, 0, 0}, since = 1 }"),
              Contains("since: goes with amplitude"));
 }
 
 TEST_CASE("without a callback `every` is of the history", "[lua]") {
-  CHECK_THAT(error_of(head +
+  CHECK_THAT(error_of(earthquakes_head +
                       "m:initial_velocity{ velocity = {0, 0, 1e-3} }\n"
                       "m:run{ steps = 40, every = 4 }\n"
                       "local h = m:history()\nassert(h.time[1] == 0 and h.step[1] == 0 and h.step[2] == 4)\n"
@@ -116,17 +118,18 @@ TEST_CASE("without a callback `every` is of the history", "[lua]") {
 }
 
 TEST_CASE("quiet boundaries and free fields in a script", "[lua][earthquake]") {
-  CHECK_THAT(error_of(head + "m:quiet{ on = 'z-', velocity = {0, 0, 1}, amplitude = { times = {0, 1e-4, "
-                             "2e-4}, values = {0, 1, 0},"
-                             " outside = 'zero' } }\n"
-                             "m:free_field{ on = {'x-', 'x+'} }\nm:run{ duration = 5e-3 }\n"
-                             "local e = m:energy()\nassert(e.radiated > 0 and e.balance_error < 0.01)"),
+  CHECK_THAT(error_of(earthquakes_head +
+                      "m:quiet{ on = 'z-', velocity = {0, 0, 1}, amplitude = { times = {0, 1e-4, "
+                      "2e-4}, values = {0, 1, 0},"
+                      " outside = 'zero' } }\n"
+                      "m:free_field{ on = {'x-', 'x+'} }\nm:run{ duration = 5e-3 }\n"
+                      "local e = m:energy()\nassert(e.radiated > 0 and e.balance_error < 0.01)"),
              Equals(""));
-  CHECK_THAT(error_of(head + "m:quiet{ on = 'z-', velocity = {0, 0, 1}, stress = {0, 0, 1} }"),
+  CHECK_THAT(error_of(earthquakes_head + "m:quiet{ on = 'z-', velocity = {0, 0, 1}, stress = {0, 0, 1} }"),
              Contains("give one of them"));
-  CHECK_THAT(error_of(head + "m:quiet{ on = 'z-', amplitude = { {0, 0}, {1, 1} } }"),
+  CHECK_THAT(error_of(earthquakes_head + "m:quiet{ on = 'z-', amplitude = { {0, 0}, {1, 1} } }"),
              Contains("goes with velocity or stress"));
-  CHECK_THAT(error_of(head + "m:free_field{ on = 'x-' }"), Contains("no foot"));
+  CHECK_THAT(error_of(earthquakes_head + "m:free_field{ on = 'x-' }"), Contains("no foot"));
 }
 
 TEST_CASE("Rayleigh damping by a fraction of critical damping", "[lua][earthquake]") {
@@ -145,7 +148,7 @@ TEST_CASE("Rayleigh damping by a fraction of critical damping", "[lua][earthquak
 
 TEST_CASE("bolts in a script", "[lua][bolts]") {
   CHECK_THAT(
-      error_of(head +
+      error_of(earthquakes_head +
                "m:fix{ on = 'z-' }\n"
                "assert(m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 0.5}, area = 5e-4, plate = true, "
                "free_length = 1,"
@@ -156,10 +159,11 @@ TEST_CASE("bolts in a script", "[lua][bolts]") {
                "local rows = m:bolt_forces()\nassert(#rows == 77 and math.abs(rows[1].tension - 1e4) < 1)\n"
                "m:relax{ residual = 1e-6 }\nm:save_bolts{}\nm:picture{ file = 'bolts.png' }"),
       Equals(""));
-  CHECK_THAT(error_of(head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 3}, area = 5e-4 }"),
+  CHECK_THAT(error_of(earthquakes_head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 3}, area = 5e-4 }"),
              Contains("bolt 1 of 1") && Contains("hangs in the air"));
-  CHECK_THAT(error_of(head + "m:save_bolts{}"), Contains("no bolts"));
-  CHECK_THAT(Script(head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 0.5}, area = 490 }").printed(),
+  CHECK_THAT(error_of(earthquakes_head + "m:save_bolts{}"), Contains("no bolts"));
+  CHECK_THAT(Script(earthquakes_head + "m:bolts{ from = {0.5, 0.5, 2}, to = {0.5, 0.5, 0.5}, area = 490 }")
+                 .printed(),
              Contains("bolts: area = 490: is it in m2? A bar of 25 mm"));
 }
 

@@ -9,37 +9,40 @@ using namespace cdem::script::test;
 using Catch::Matchers::Contains;
 
 namespace {
-const std::string head = "local cdem = require 'cdem'\n";
+const std::string errors_head = "local cdem = require 'cdem'\n";
 }
 
 TEST_CASE("an error names script, line, call, field, value and range", "[lua]") {
   CHECK(error_of(
-            head +
+            errors_head +
             "\nlocal rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.5, density = 2500 }") ==
         "case.lua:3: cdem.elastic: poissons_ratio = 0.5: must be in (-1, 0.5)");
-  CHECK(error_of(head + "cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = -2500 }") ==
+  CHECK(error_of(errors_head +
+                 "cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = -2500 }") ==
         "case.lua:2: cdem.elastic: density = -2500: must be > 0");
-  CHECK(error_of(head + "cdem.elastic{ young_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }") ==
-        "case.lua:2: cdem.elastic: young_modulus: no such key; did you mean youngs_modulus? Allowed: "
-        "youngs_modulus, "
-        "poissons_ratio, density, viscosity, stiffness_damping, damping");
-  CHECK_THAT(error_of(head + "cdem.grid{ size = {0, 1, 1}, divisions = {1, 1, 1} }"),
+  CHECK(
+      error_of(errors_head + "cdem.elastic{ young_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }") ==
+      "case.lua:2: cdem.elastic: young_modulus: no such key; did you mean youngs_modulus? Allowed: "
+      "youngs_modulus, "
+      "poissons_ratio, density, viscosity, stiffness_damping, damping");
+  CHECK_THAT(error_of(errors_head + "cdem.grid{ size = {0, 1, 1}, divisions = {1, 1, 1} }"),
              Contains("case.lua:2: cdem.grid: size[1] = 0: must be > 0"));
 }
 
 TEST_CASE("an error inside a function of the script names the line that called", "[lua]") {
   CHECK_THAT(
-      error_of(head +
+      error_of(errors_head +
                "local function rock(nu)\n  return cdem.elastic{ youngs_modulus = 1, poissons_ratio = nu, "
                "density = 1 }\nend\nrock(0.7)"),
       Contains("case.lua:3: cdem.elastic: poissons_ratio = 0.7"));
-  CHECK_THAT(error_of(head + "pcall(print)\nlocal ok, e = pcall(cdem.elastic, { density = 1 })\nerror(e, 0)"),
-             Contains("case.lua:3: cdem.elastic: youngs_modulus: missing"));
+  CHECK_THAT(
+      error_of(errors_head + "pcall(print)\nlocal ok, e = pcall(cdem.elastic, { density = 1 })\nerror(e, 0)"),
+      Contains("case.lua:3: cdem.elastic: youngs_modulus: missing"));
 }
 
 TEST_CASE("an error in a required file names that file", "[lua]") {
   Script script("require 'rocks'");
-  script.write("rocks.lua", head + "return cdem.elastic{}");
+  script.write("rocks.lua", errors_head + "return cdem.elastic{}");
   CHECK_THAT(script.error(), Contains("rocks.lua:2: cdem.elastic: youngs_modulus: missing"));
 }
 
@@ -60,15 +63,16 @@ TEST_CASE("a first line for the shell and a byte order mark do not shift lines",
 }
 
 TEST_CASE("calling in the wrong way is explained", "[lua]") {
-  CHECK_THAT(error_of(head + "cdem.elastic(30e9)"), Contains("takes a table with named values, not 3e+10"));
+  CHECK_THAT(error_of(errors_head + "cdem.elastic(30e9)"),
+             Contains("takes a table with named values, not 3e+10"));
   CHECK_THAT(error_of(column() + "model:run{ duration = 1, mass_scaling = 100 }"),
              Contains("mass_scaling = 100: must be a table with named values; name the values: { "));
-  CHECK_THAT(error_of(head + "cdem.elastic({}, 2)"), Contains("takes one table"));
-  CHECK_THAT(error_of(head + "cdem.elastics{}"),
+  CHECK_THAT(error_of(errors_head + "cdem.elastic({}, 2)"), Contains("takes one table"));
+  CHECK_THAT(error_of(errors_head + "cdem.elastics{}"),
              Contains("case.lua:2: cdem.elastics: no such name; did you mean elastic?"));
   CHECK_THAT(error_of("local cdem = require 'cdem'\ncdem.sphere{ radius = 1 }"),
              Contains("case.lua:2: cdem.sphere: no such name; did you mean cdem.solid.sphere?"));
-  CHECK_THAT(error_of(head + "cdem.select.plain{}"), Contains("did you mean plane?"));
+  CHECK_THAT(error_of(errors_head + "cdem.select.plain{}"), Contains("did you mean plane?"));
   CHECK_THAT(error_of(column() + "model.fix{ on = 'x-' }"),
              Contains("call it with a colon on a cdem.Model: model:fix(...)"));
   CHECK_THAT(error_of(column() + "model:fixx{ on = 'x-' }"),
@@ -77,9 +81,9 @@ TEST_CASE("calling in the wrong way is explained", "[lua]") {
   CHECK_THAT(error_of(column() + "model:max('displacement.x', 'x-', 3)"),
              Contains("3 arguments: takes (field, on)"));
   CHECK_THAT(error_of(column() + "model:energy(1)"), Contains("1 argument: takes none"));
-  CHECK_THAT(error_of(head + "local t = {}\nt.t = t\ncdem.report{ { name = 'a', value = t } }"),
+  CHECK_THAT(error_of(errors_head + "local t = {}\nt.t = t\ncdem.report{ { name = 'a', value = t } }"),
              Contains("does it contain itself?"));
-  CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = coroutine.create(print) } } }"),
+  CHECK_THAT(error_of(errors_head + "cdem.model{ bodies = { { shape = coroutine.create(print) } } }"),
              Contains("bodies[1].shape = a thread: must be a cdem.Assembly"));
 }
 
@@ -108,9 +112,9 @@ TEST_CASE("a script that is not there, or is a folder, is a file error", "[lua]"
 }
 
 TEST_CASE("a missing data file stays a file error on its way through the script", "[lua]") {
-  Script script(head + "cdem.read_csv('missing.csv')");
+  Script script(errors_head + "cdem.read_csv('missing.csv')");
   CHECK_THROWS_AS(script.run(), FileError);
-  Script rethrown(head + "local ok, e = pcall(cdem.read_csv, 'missing.csv')\nerror(e, 0)");
+  Script rethrown(errors_head + "local ok, e = pcall(cdem.read_csv, 'missing.csv')\nerror(e, 0)");
   CHECK_THROWS_AS(rethrown.run(), FileError);
 }
 
@@ -147,7 +151,7 @@ TEST_CASE("a check tries the colours of joints and sections", "[lua]") {
 
 TEST_CASE("waves enter a slope at its own level and depth, and weigh as the model does", "[lua][water]") {
   const auto slope = [](const std::string& waves, const std::string& more) {
-    return head + "local w = cdem.water." + waves +
+    return errors_head + "local w = cdem.water." + waves +
            "\ncdem.water.slope{ bed = { {0, -4}, {10, -4}, {30, 6} }, " + "waves = w, duration = 2" + more +
            " }";
   };

@@ -12,13 +12,13 @@ using Catch::Matchers::Equals;
 
 namespace {
 
-const std::string head =
+const std::string joint_laws_head =
     "local cdem = require 'cdem'\n"
     "local rock = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0, density = 2500 }\n";
 
 // Two flat blocks pressed together, on the joint "seam".
 std::string box(const std::string& law) {
-  return head + "local law = " + law +
+  return joint_laws_head + "local law = " + law +
          "\n"
          "local shape = cdem.cut_by_plane{ shape = cdem.box{ size = {1, 1, 0.25} }, point = {0, 0, 0.2}, "
          "normal = {0, 0, 1}, name = 'seam' }\n"
@@ -56,7 +56,9 @@ TEST_CASE("laws of joints are made, told in words and used by a joint set", "[lu
 }
 
 TEST_CASE("laws that cannot be are refused with one line", "[lua][joint_laws]") {
-  const auto refused = [](const std::string& law) { return error_of(head + "local law = " + law); };
+  const auto refused = [](const std::string& law) {
+    return error_of(joint_laws_head + "local law = " + law);
+  };
   CHECK_THAT(refused("cdem.coulomb{ friction_angle = 30, dilation_angle = 35 }"),
              Contains("dilation_angle = 35: must be in [0, residual friction angle] degrees"));
   CHECK_THAT(refused("cdem.coulomb{ friction_angle = 30, residual_friction_angle = 31 }"),
@@ -116,7 +118,7 @@ TEST_CASE("results of joints point by point and as files", "[lua][joints]") {
 
 TEST_CASE("discs of a fracture network are read from a table and cut the blocks they reach", "[lua][discs]") {
   Script script(
-      head +
+      joint_laws_head +
       "local discs = cdem.read_discs('dfn.csv')\n"
       "assert(#discs == 2 and discs[2].set == 'east' and math.abs(discs[2].dip - 60) < 1e-9)\n"
       "local shape = cdem.cut_by_discs{ shape = cdem.box{ size = {2, 2, 2} }, discs = discs }\n"
@@ -129,7 +131,7 @@ TEST_CASE("discs of a fracture network are read from a table and cut the blocks 
   script.write("dfn.csv",
                "id,x,y,z,dip,dip_direction,radius,set\n1,1,1,1,0,0,5,level\n2,1,1,1.6,60,90,0.3,east\n");
   CHECK_THAT(script.error(), Equals(""));
-  CHECK_THAT(error_of(head +
+  CHECK_THAT(error_of(joint_laws_head +
                       "cdem.cut_by_discs{ shape = cdem.box{ size = {2, 2, 2} }, discs = { { centre = {1, 1, "
                       "1}, dip = 95, dip_direction = 0, radius = 1, set = 'a' } } }"),
              Contains("dip = 95"));

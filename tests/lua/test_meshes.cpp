@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string head =
+const std::string meshes_head =
     opening +
     "local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
     "local bond = cdem.mohr_coulomb{ cohesion = 5e6, friction_angle = 35, tensile_strength = 2e6 }\n"
@@ -18,18 +18,18 @@ const std::string head =
     "  body.shape, body.material = body.shape or cube, concrete\n  return cdem.model{ bodies = { body } "
     "}\nend\n";
 
-const std::string held = head + "local model = model_of{ joint = bond }\nmodel:fix{ on = 'z-' }\n";
+const std::string held = meshes_head + "local model = model_of{ joint = bond }\nmodel:fix{ on = 'z-' }\n";
 
 // Two cubes of 1 m, one on the other, as regions 1 and 2 of one mesh.
 const std::string tower =
-    head + "local tower = cdem.solid.fragments{ solids = { cdem.solid.box{ size = {1, 1, 1} },\n"
-           "  cdem.solid.box{ size = {1, 1, 1}, origin = {0, 0, 1} } } }:mesh{ size = 0.6 }\n";
+    meshes_head + "local tower = cdem.solid.fragments{ solids = { cdem.solid.box{ size = {1, 1, 1} },\n"
+                  "  cdem.solid.box{ size = {1, 1, 1}, origin = {0, 0, 1} } } }:mesh{ size = 0.6 }\n";
 
 } // namespace
 
 TEST_CASE("a meshed body has bonds where its joint is asked for", "[lua]") {
   // 8 cells of 6 tets, 48 outer faces: (4 * 48 - 48) / 2 = 72 inner ones with three bonds each.
-  CHECK(error_of(head +
+  CHECK(error_of(meshes_head +
                  "local c = model_of{}:counts()\n"
                  "assert(c.blocks == 1 and c.tets == 48 and c.nodes == 27 and c.bonds == 0)\n"
                  "c = model_of{ joint = bond }:counts()\n"
@@ -69,37 +69,37 @@ TEST_CASE("a box mesh stands where its origin is", "[lua]") {
 }
 
 TEST_CASE("a meshed body under its weight: reaction, stress and energy", "[lua]") {
-  CHECK(error_of(head + "local model = model_of{}\nmodel:fix{ on = 'z-' }\n"
-                        "model:gravity{ vector = {0, 0, -9.81} }\n"
-                        "assert(model:relax{ residual = 1e-8 }.converged)\n"
-                        "close(model:reaction('z-')[3], 2500 * 9.81, 1e-6)\n"
-                        "close(model:mean('stress.zz'), -2500 * 9.81 / 2, 1e-3)\n"
-                        "assert(model:max('displacement.z') < 1e-9)\n"
-                        "assert(model:energy().balance_error < 1e-2)") == "");
+  CHECK(error_of(meshes_head + "local model = model_of{}\nmodel:fix{ on = 'z-' }\n"
+                               "model:gravity{ vector = {0, 0, -9.81} }\n"
+                               "assert(model:relax{ residual = 1e-8 }.converged)\n"
+                               "close(model:reaction('z-')[3], 2500 * 9.81, 1e-6)\n"
+                               "close(model:mean('stress.zz'), -2500 * 9.81 / 2, 1e-3)\n"
+                               "assert(model:max('displacement.z') < 1e-9)\n"
+                               "assert(model:energy().balance_error < 1e-2)") == "");
 }
 
 TEST_CASE("a rigid mesh falls as a whole, and deforms when it is let", "[lua]") {
-  CHECK(error_of(head + "local model = model_of{ element = 'rigid' }\n"
-                        "assert(model.stable_time_step == math.huge)\n"
-                        "model:gravity{ vector = {0, 0, -10} }\n"
-                        "model:run{ duration = 0.1, time_step = 1e-3 }\n"
-                        "close(model:max('displacement.z'), -0.05, 1e-9)\n"
-                        "close(model:min('displacement.z'), -0.05, 1e-9)\n"
-                        "assert(model:make_deformable{ on = 'all' } == 1)\n"
-                        "assert(model:make_deformable{ on = 'all' } == 0)\n"
-                        "assert(model.stable_time_step < 1)\n"
-                        "model:run{ steps = 10 }\n"
-                        "assert(model:make_rigid{ on = 'all' } == 1)") == "");
-  CHECK_THAT(error_of(head + "model_of{ element = 'rigid' }:run{ steps = 3 }"),
+  CHECK(error_of(meshes_head + "local model = model_of{ element = 'rigid' }\n"
+                               "assert(model.stable_time_step == math.huge)\n"
+                               "model:gravity{ vector = {0, 0, -10} }\n"
+                               "model:run{ duration = 0.1, time_step = 1e-3 }\n"
+                               "close(model:max('displacement.z'), -0.05, 1e-9)\n"
+                               "close(model:min('displacement.z'), -0.05, 1e-9)\n"
+                               "assert(model:make_deformable{ on = 'all' } == 1)\n"
+                               "assert(model:make_deformable{ on = 'all' } == 0)\n"
+                               "assert(model.stable_time_step < 1)\n"
+                               "model:run{ steps = 10 }\n"
+                               "assert(model:make_rigid{ on = 'all' } == 1)") == "");
+  CHECK_THAT(error_of(meshes_head + "model_of{ element = 'rigid' }:run{ steps = 3 }"),
              Contains("time_step: missing"));
-  CHECK_THAT(error_of(head + "model_of{ element = 'rigid' }:relax{}"), Contains("is rigid and free"));
-  CHECK_THAT(
-      error_of(head + "model_of{}:make_rigid{ on = cdem.select.box{ min = {9, 9, 9}, max = {10, 10, 10} } }"),
-      Contains("centroids of meshed bodies"));
+  CHECK_THAT(error_of(meshes_head + "model_of{ element = 'rigid' }:relax{}"), Contains("is rigid and free"));
+  CHECK_THAT(error_of(meshes_head +
+                      "model_of{}:make_rigid{ on = cdem.select.box{ min = {9, 9, 9}, max = {10, 10, 10} } }"),
+             Contains("centroids of meshed bodies"));
 }
 
 TEST_CASE("a watch is a list that grows while the model runs", "[lua]") {
-  CHECK(error_of(head +
+  CHECK(error_of(meshes_head +
                  "local model = model_of{ element = 'rigid', name = 'units' }\n"
                  "local left = model:watch{ body = 'units', leaves = 0.5 }\n"
                  "assert(#left == 0 and left[1] == nil and tostring(left) == 'cdem.Watch (0 left)')\n"
@@ -110,12 +110,14 @@ TEST_CASE("a watch is a list that grows while the model runs", "[lua]") {
                  "close(left[1].place[1], 0.5 + 2 * left[1].time)\n"
                  "close(left[1].displacement[1], 2 * left[1].time)\n"
                  "for i, unit in ipairs(left) do assert(i == 1 and unit.unit == 1) end") == "");
-  CHECK_THAT(error_of(head + "model_of{}:watch{ body = 'rocks', leaves = 1 }"),
+  CHECK_THAT(error_of(meshes_head + "model_of{}:watch{ body = 'rocks', leaves = 1 }"),
              Contains("body = \"rocks\": must be the name of a body"));
 }
 
 TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
-  const auto refused = [](const std::string& body) { return error_of(head + "model_of{ " + body + " }"); };
+  const auto refused = [](const std::string& body) {
+    return error_of(meshes_head + "model_of{ " + body + " }");
+  };
   CHECK_THAT(refused("element = 'small_strain'"),
              Contains("bodies[1].element = \"small_strain\": must be finite_volume or rigid for a mesh"));
   CHECK_THAT(refused("bonds = 'springs'"), Contains("bodies[1].joint: missing; bonds = \"springs\""));
@@ -137,14 +139,15 @@ TEST_CASE("meshed bodies that do not fit are refused", "[lua]") {
                      "tensile_strength = 2e6, "
                      "softening = 'linear', fracture_energy_1 = 100, fracture_energy_2 = 400 }"),
              Contains("softening") && Contains("bonds = \"cohesive\" softens"));
-  CHECK_THAT(error_of(head + "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
-                             "concrete, bonds = 'springs' } } }"),
+  CHECK_THAT(error_of(meshes_head +
+                      "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = "
+                      "concrete, bonds = 'springs' } } }"),
              Contains("bodies[1].joint: missing; bonds = \"springs\""));
 }
 
 TEST_CASE("a mesh that touches a block needs a law between them, and small strain knows none", "[lua]") {
   const auto beside = [](const std::string& origin, const std::string& more) {
-    return error_of(head +
+    return error_of(meshes_head +
                     "cdem.model{ bodies = { { shape = cube, material = concrete, name = 'unit' },\n"
                     "  { shape = cdem.box{ size = {1, 1, 1}, origin = {" +
                     origin + "} }, material = concrete, name = 'slope', " + more);
@@ -165,9 +168,10 @@ TEST_CASE("cutting and growing refuse a model with meshed bodies", "[lua]") {
     INFO(call);
     CHECK_THAT(error_of(held + "model:" + call), Contains("the model has meshed bodies"));
   }
-  CHECK_THAT(error_of(head + "model_of{ joint = bond, bonds = 'springs' }:initial_stress{ on = 'all', stress "
-                             "= {1e5, 0, 0, 0, 0, "
-                             "0} }"),
+  CHECK_THAT(error_of(meshes_head +
+                      "model_of{ joint = bond, bonds = 'springs' }:initial_stress{ on = 'all', stress "
+                      "= {1e5, 0, 0, 0, 0, "
+                      "0} }"),
              Contains("the springs of a mesh"));
 }
 
@@ -187,9 +191,10 @@ TEST_CASE("a flow pushes with its pressure on the area that faces it", "[lua]") 
 
 TEST_CASE("a flow over two bodies goes on over the one that is left", "[lua]") {
   const std::string pair =
-      head + "local beside = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2}, origin = {0, 3, 0} }\n"
-             "local model = cdem.model{ bodies = { { name = 'a', shape = cube, material = concrete },\n"
-             "  { name = 'b', shape = beside, material = concrete } } }\nmodel:fix{ on = 'z-' }\n";
+      meshes_head +
+      "local beside = cdem.box_mesh{ size = {1, 1, 1}, divisions = {2, 2, 2}, origin = {0, 3, 0} }\n"
+      "local model = cdem.model{ bodies = { { name = 'a', shape = cube, material = concrete },\n"
+      "  { name = 'b', shape = beside, material = concrete } } }\nmodel:fix{ on = 'z-' }\n";
   CHECK(error_of(pair + "model:flow{ on = {'a', 'b'}, drag = 1, water = cdem.water.uniform{ velocity = {10, "
                         "0, 0}, density = 1000 } }\n"
                         "model:remove{ on = 'a' }\nassert(model:relax{ residual = 1e-8 }.converged)\n"
@@ -200,11 +205,11 @@ TEST_CASE("a flow over two bodies goes on over the one that is left", "[lua]") {
 }
 
 TEST_CASE("pressure and velocity of a flow turn into each other", "[lua]") {
-  CHECK(error_of(head + "close(cdem.flow_pressure(10), 51250)\n"
-                        "close(cdem.flow_velocity(51250), 10)\n"
-                        "close(cdem.flow_velocity(50000, 1000), 10)") == "");
-  CHECK_THAT(error_of(head + "cdem.flow_pressure(-1)"), Contains("velocity = -1: must be >= 0"));
-  CHECK_THAT(error_of(head + "cdem.flow_velocity(-1)"), Contains("pressure = -1: must be >= 0"));
+  CHECK(error_of(meshes_head + "close(cdem.flow_pressure(10), 51250)\n"
+                               "close(cdem.flow_velocity(51250), 10)\n"
+                               "close(cdem.flow_velocity(50000, 1000), 10)") == "");
+  CHECK_THAT(error_of(meshes_head + "cdem.flow_pressure(-1)"), Contains("velocity = -1: must be >= 0"));
+  CHECK_THAT(error_of(meshes_head + "cdem.flow_velocity(-1)"), Contains("pressure = -1: must be >= 0"));
 }
 
 TEST_CASE("a flow that cannot be is refused", "[lua]") {
@@ -232,7 +237,7 @@ TEST_CASE("a flow that cannot be is refused", "[lua]") {
 }
 
 TEST_CASE("the search for the critical flow tells what broke, where and when", "[lua]") {
-  CHECK(error_of(head +
+  CHECK(error_of(meshes_head +
                  "local column = cdem.box_mesh{ size = {0.3, 0.3, 0.75}, divisions = {2, 2, 5} }\n"
                  "local model = model_of{ shape = column, joint = bond }\nmodel:fix{ on = 'z-' }\n"
                  "local r = model:critical_flow{ direction = {1, 0, 0}, held = 'z-', mode = 'ramp', "
@@ -262,7 +267,7 @@ TEST_CASE("a search that cannot be is refused", "[lua]") {
   const auto refused = [](const std::string& more) {
     return error_of(held + "model:critical_flow{ direction = {1, 0, 0}, " + more + " }");
   };
-  CHECK_THAT(error_of(head + "model_of{ joint = bond }:critical_flow{ direction = {1, 0, 0} }"),
+  CHECK_THAT(error_of(meshes_head + "model_of{ joint = bond }:critical_flow{ direction = {1, 0, 0} }"),
              Contains("critical_flow: nothing is held"));
   CHECK_THAT(error_of(held + "model:critical_flow{}"), Contains("direction: missing"));
   CHECK_THAT(refused("on = 'x+'"), Contains("no outer face of the place looks towards the flow"));
@@ -281,9 +286,9 @@ TEST_CASE("a search that cannot be is refused", "[lua]") {
 
 TEST_CASE("cell data of a .vtk are the regions of its mesh, and a joint without faces is told", "[lua]") {
   const std::string
-      head = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
-             "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\nCELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 1 2 3 4\n"
-             "CELL_TYPES 3\n5\n10\n10\n",
+      meshes_head = "# vtk DataFile Version 2.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
+                    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\nCELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 1 2 3 4\n"
+                    "CELL_TYPES 3\n5\n10\n10\n",
       material = "SCALARS material int 1\nLOOKUP_TABLE default\n9\n4\n7\n",
       age = "SCALARS age int 1\nLOOKUP_TABLE default\n0\n1\n2\n",
       body =
@@ -295,7 +300,7 @@ TEST_CASE("cell data of a .vtk are the regions of its mesh, and a joint without 
   const auto said = [&](const std::string& data, const std::string& more) {
     std::string text = body;
     Script script(text.replace(text.find("MORE"), 4, more));
-    script.write("a.vtk", head + data);
+    script.write("a.vtk", meshes_head + data);
     return script.printed();
   };
   CHECK_THAT(said("CELL_DATA 3\n" + material, ""), Contains("2 regions by \"material\": 4, 7"));

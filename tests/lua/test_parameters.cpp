@@ -8,23 +8,24 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string head = "local cdem = require 'cdem'\n";
+const std::string parameters_head = "local cdem = require 'cdem'\n";
 
 std::string value_of(const std::string& declaration, const std::string& typed) {
-  Script script(head + "local p = cdem.parameter{ name = 'p', " + declaration +
+  Script script(parameters_head + "local p = cdem.parameter{ name = 'p', " + declaration +
                 " }\nprint(math.type(p) or type(p), cdem.describe(p))");
   return script.set("p", typed).printed();
 }
 
 std::string error_for(const std::string& declaration, const std::string& typed) {
-  Script script(head + "cdem.parameter{ name = 'p', " + declaration + " }");
+  Script script(parameters_head + "cdem.parameter{ name = 'p', " + declaration + " }");
   return script.set("p", typed).error();
 }
 
 } // namespace
 
 TEST_CASE("a parameter without --set has its default", "[lua]") {
-  CHECK(printed_by(head + "print(cdem.parameter{ name = 'pressure', default = 30e6 })") == "30000000.0");
+  CHECK(printed_by(parameters_head + "print(cdem.parameter{ name = 'pressure', default = 30e6 })") ==
+        "30000000.0");
 }
 
 TEST_CASE("the option --set is read with the type of the default", "[lua]") {
@@ -59,14 +60,14 @@ TEST_CASE("ranges and choices hold for the default and for --set", "[lua]") {
              Contains("--set p[2] = 3: must be in [0, 2]"));
   CHECK_THAT(error_for("default = 'fine', choices = {'fine', 'coarse'}", "corse"),
              Contains("must be one of fine, coarse; did you mean coarse?"));
-  CHECK_THAT(error_of(head + "cdem.parameter{ name = 'p', default = 5.0, range = {0, 2} }"),
+  CHECK_THAT(error_of(parameters_head + "cdem.parameter{ name = 'p', default = 5.0, range = {0, 2} }"),
              Contains("default = 5: must be in [0, 2]"));
-  CHECK_THAT(error_of(head + "cdem.parameter{ name = 'p', default = 5.0, range = {2, 0} }"),
+  CHECK_THAT(error_of(parameters_head + "cdem.parameter{ name = 'p', default = 5.0, range = {2, 0} }"),
              Contains("range = {2, 0}: must be {lowest, highest}"));
 }
 
 TEST_CASE("a --set that no parameter takes is an error that names the nearest", "[lua]") {
-  Script script(head + "cdem.parameter{ name = 'pressure', default = 30e6 }");
+  Script script(parameters_head + "cdem.parameter{ name = 'pressure', default = 30e6 }");
   script.set("presure", "1");
   CHECK(script.error() == "case.lua: --set presure=1: the script has no such parameter; did you mean "
                           "pressure? Declared: pressure");
@@ -80,9 +81,9 @@ TEST_CASE("a misspelt --set is noticed before anything is solved", "[lua]") {
 }
 
 TEST_CASE("a parameter is declared once, and before the first solving call", "[lua]") {
-  CHECK_THAT(
-      error_of(head + "cdem.parameter{ name = 'p', default = 1 }\ncdem.parameter{ name = 'p', default = 1 }"),
-      Contains("case.lua:3: cdem.parameter: name = \"p\": declared twice"));
+  CHECK_THAT(error_of(parameters_head +
+                      "cdem.parameter{ name = 'p', default = 1 }\ncdem.parameter{ name = 'p', default = 1 }"),
+             Contains("case.lua:3: cdem.parameter: name = \"p\": declared twice"));
   CHECK_THAT(error_of(column() + "model:traction{ on = 'x+', stress = {1, 0, 0} }\nmodel:relax{}\n"
                                  "cdem.parameter{ name = 'p', default = 1 }"),
              Contains("declared after the first solving call"));
@@ -90,7 +91,7 @@ TEST_CASE("a parameter is declared once, and before the first solving call", "[l
 
 TEST_CASE("the declared parameters are listed for the command line", "[lua]") {
   Script script(
-      head +
+      parameters_head +
       "cdem.parameter{ name = 'pressure', default = 30e6, range = {0, 1e9}, unit = 'Pa', doc = 'on top' }");
   script.set("pressure", "24e6");
   script.run();

@@ -11,13 +11,14 @@ using Catch::Matchers::Contains;
 namespace {
 
 // A cube as the unit, a slab 20 m by 20 m whose upper side is z = 2, and a drop of 12 in one layer.
-const std::string head =
+const std::string piles_head =
     opening + "local concrete = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }\n"
               "local cube = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, 1} }\n"
               "local slab = cdem.box_mesh{ size = {20, 20, 2}, divisions = {2, 2, 1} }\n";
 const std::string dropped =
-    head + "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
-           "local model = cdem.model{ bodies = { { shape = pile, material = concrete, name = 'units' } } }\n";
+    piles_head +
+    "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
+    "local model = cdem.model{ bodies = { { shape = pile, material = concrete, name = 'units' } } }\n";
 
 } // namespace
 
@@ -71,7 +72,7 @@ TEST_CASE("units keep their numbers and places when others are removed", "[lua]"
 }
 
 TEST_CASE("contacts of the units that are left go by their numbers", "[lua]") {
-  CHECK(error_of(head +
+  CHECK(error_of(piles_head +
                  "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
                  "local model = cdem.model{ bodies = {\n"
                  "  { shape = pile, material = concrete, name = 'units', element = 'rigid' },\n"
@@ -89,7 +90,7 @@ TEST_CASE("contacts of the units that are left go by their numbers", "[lua]") {
 TEST_CASE("a pile tells which of its units have broken, from a file too, and a body of it is warned of",
           "[lua]") {
   const std::string broken =
-      head +
+      piles_head +
       "local bar = cdem.box_mesh{ size = {2, 1, 1}, divisions = {4, 1, 1} }\n"
       "local pile = cdem.drop{ unit = bar, count = 3, onto = slab, seed = 3, gap = 0.2 }\n"
       "local joint = cdem.mohr_coulomb{ cohesion = 4e6, friction_angle = 30, tensile_strength = 2e6 }\n"
@@ -132,12 +133,12 @@ TEST_CASE("conditions work on chosen units alone", "[lua]") {
 
 TEST_CASE("faces named on the unit's mesh are a place on every unit, from a file too", "[lua]") {
   const std::string named =
-      head + "cube:faces{ side = 'z-', name = 'foot' }\n"
-             "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
-             "pile:save{ file = 'pile.json' }\n"
-             "pile = cdem.read_pile{ file = 'pile.json' }:scaled{ factor = 2 }\n"
-             "local model = cdem.model{ bodies = { { shape = pile, material = concrete, "
-             "name = 'units' } } }\n";
+      piles_head + "cube:faces{ side = 'z-', name = 'foot' }\n"
+                   "local pile = cdem.drop{ unit = cube, count = 12, onto = slab, seed = 3, gap = 0.2 }\n"
+                   "pile:save{ file = 'pile.json' }\n"
+                   "pile = cdem.read_pile{ file = 'pile.json' }:scaled{ factor = 2 }\n"
+                   "local model = cdem.model{ bodies = { { shape = pile, material = concrete, "
+                   "name = 'units' } } }\n";
   CHECK(error_of(named +
                  "local foot = cdem.select.faces{ body = 'units', name = 'foot' }\n"
                  "model:fix{ on = foot }\nmodel:gravity{ vector = {0, 0, -9.81} }\n"
@@ -198,7 +199,7 @@ TEST_CASE("a pile comes back from its file to the last digit", "[lua]") {
 }
 
 TEST_CASE("a layer of cubes has the density it was laid with", "[lua]") {
-  CHECK(error_of(head +
+  CHECK(error_of(piles_head +
                  "local layer = cdem.place{ unit = cube, count = 25, onto = slab, columns = 5, density = "
                  "0.3, nudges = 20, attitudes = 50 }\n"
                  "assert(#layer == 25)\n"
@@ -207,7 +208,7 @@ TEST_CASE("a layer of cubes has the density it was laid with", "[lua]") {
 
 TEST_CASE("a layer of armour units stays as it was laid when it settles", "[lua]") {
   // The first row is held, as at a toe. No unit moves by a tenth of its height.
-  CHECK(error_of(head +
+  CHECK(error_of(piles_head +
                  "local unit = cdem.accropode{ height = 1, corner = 0 }:mesh{ size = 0.5 }\n"
                  "local slope = cdem.slope{ gradient = 2 / 3, length = 6, width = 7 }:mesh{ size = 3 }\n"
                  "local pile = cdem.place{ unit = unit, count = 12, onto = slope, columns = 4 }\n"
@@ -229,7 +230,7 @@ TEST_CASE("a layer of armour units stays as it was laid when it settles", "[lua]
 TEST_CASE("two layers of armour units stay as they were laid when they settle between walls", "[lua]") {
   // The lowest row of each layer is held, as at a toe. No unit moves by a fiftieth of its height.
   CHECK(
-      error_of(head +
+      error_of(piles_head +
                "local unit = cdem.accropode{ height = 1, corner = 0 }:mesh{ size = 0.5 }\n"
                "local slope = cdem.slope{ gradient = 2 / 3, length = 4, width = 6 }:mesh{ size = 3 }\n"
                "local pile = cdem.place{ unit = unit, count = 12, layers = 2, onto = slope, columns = 3,\n"
@@ -253,17 +254,18 @@ TEST_CASE("two layers of armour units stay as they were laid when they settle be
 TEST_CASE("default is the law between meshed bodies, and between the units of one", "[lua]") {
   // Three cubes fall on the slab and on each other.
   const std::string fall =
-      head + "local rough = cdem.coulomb{ friction_angle = 30 }\n"
-             "local pile = cdem.drop{ unit = cube, count = 3, onto = slab, layers = 3, gap = 0.02,\n"
-             "  region = { min = {9, 9}, max = {11, 11} } }\n"
-             "local function fallen(contacts)\n"
-             "  local model = cdem.model{\n"
-             "    bodies = { { shape = slab, material = concrete, element = 'rigid', name = 'slab' },\n"
-             "               { shape = pile, material = concrete, element = 'rigid', name = 'units' } },\n"
-             "    contacts = contacts }\n"
-             "  model:fix{ on = 'slab' }\n  model:gravity{ vector = {0, 0, -9.81} }\n"
-             "  model:run{ duration = 0.5 }\n"
-             "  return model.state_hash\nend\n";
+      piles_head +
+      "local rough = cdem.coulomb{ friction_angle = 30 }\n"
+      "local pile = cdem.drop{ unit = cube, count = 3, onto = slab, layers = 3, gap = 0.02,\n"
+      "  region = { min = {9, 9}, max = {11, 11} } }\n"
+      "local function fallen(contacts)\n"
+      "  local model = cdem.model{\n"
+      "    bodies = { { shape = slab, material = concrete, element = 'rigid', name = 'slab' },\n"
+      "               { shape = pile, material = concrete, element = 'rigid', name = 'units' } },\n"
+      "    contacts = contacts }\n"
+      "  model:fix{ on = 'slab' }\n  model:gravity{ vector = {0, 0, -9.81} }\n"
+      "  model:run{ duration = 0.5 }\n"
+      "  return model.state_hash\nend\n";
   CHECK(error_of(fall +
                  "local all = fallen{ { 'slab', 'slab', rough }, { 'units', 'slab', rough },\n"
                  "                    { 'units', 'units', rough } }\n"
@@ -280,7 +282,7 @@ TEST_CASE("default is the law between meshed bodies, and between the units of on
 TEST_CASE("walls keep a dropped pile on a slope together", "[lua]") {
   // Nothing is held but the slope and the walls; without walls the cubes roll down and off the slope.
   CHECK(
-      error_of(head +
+      error_of(piles_head +
                "local slope = cdem.slope{ gradient = 0.5, length = 8, width = 8 }:mesh{ size = 2 }\n"
                "local pile = cdem.drop{ unit = cube, count = 6, onto = slope, seed = 2 }\n"
                "local model = cdem.model{\n"
@@ -303,7 +305,7 @@ TEST_CASE("walls keep a dropped pile on a slope together", "[lua]") {
 }
 
 TEST_CASE("piles that cannot be made are refused", "[lua]") {
-  const auto refused = [](const std::string& call) { return error_of(head + call); };
+  const auto refused = [](const std::string& call) { return error_of(piles_head + call); };
   CHECK_THAT(refused("cdem.drop{ unit = cube, count = 0, onto = slab }"), Contains("count = 0: must be"));
   CHECK_THAT(refused("cdem.drop{ unit = cube, count = 2, onto = slab, gap = -1 }"),
              Contains("gap = -1: must be > 0"));
@@ -352,7 +354,7 @@ TEST_CASE("a pile's file that is none is refused, and units inside each other", 
            faces + "}";
   };
   const auto refused = [](const std::string& text, const std::string& more = "") {
-    Script script(head + "local pile = cdem.read_pile{ file = 'pile.json' }\n" + more);
+    Script script(piles_head + "local pile = cdem.read_pile{ file = 'pile.json' }\n" + more);
     script.write("pile.json", text);
     return script.error();
   };

@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-const std::string head = "local cdem = require 'cdem'\n";
+const std::string report_head = "local cdem = require 'cdem'\n";
 
 Figure figure(double value, double reference, const std::string& kind, double tolerance) {
   Figure f;
@@ -105,7 +105,7 @@ TEST_CASE("a figure is within when it lies no further from the reference than th
 
 TEST_CASE("a trial figure is never judged", "[lua]") {
   CHECK_FALSE(figure(1, 1, "trial", 1).within().has_value());
-  Script script(head + "cdem.report{ { name = 'a', value = 1.0, reference = 1.0, kind = 'trial' } }");
+  Script script(report_head + "cdem.report{ { name = 'a', value = 1.0, reference = 1.0, kind = 'trial' } }");
   script.run();
   const std::string json = script.read("report.json");
   CHECK(json.find("within") == std::string::npos);
@@ -114,8 +114,9 @@ TEST_CASE("a trial figure is never judged", "[lua]") {
 
 TEST_CASE("report.json has the case and every field of a figure", "[lua]") {
   Script script(
-      head + "cdem.report{ { name = 'uy', value = -2.78e-4, unit = 'm', reference = -2.7375e-4, kind = 'fe', "
-             "source = 'fine mesh', tolerance = 0.02 } }");
+      report_head +
+      "cdem.report{ { name = 'uy', value = -2.78e-4, unit = 'm', reference = -2.7375e-4, kind = 'fe', "
+      "source = 'fine mesh', tolerance = 0.02 } }");
   script.run();
   const std::string json = script.read("report.json");
   const Value all = read_report(json, "report.json");
@@ -135,7 +136,7 @@ TEST_CASE("report.json has the case and every field of a figure", "[lua]") {
 
 TEST_CASE("values may be text or null, what is not finite becomes null with a warning", "[lua]") {
   Script script(
-      head +
+      report_head +
       "cdem.report{ { name = 'text', value = 'X' }, { name = 'none' }, { name = 'nan', value = 0/0 },\n"
       "  { name = 'inf', value = 1, reference = math.huge, kind = 'paper', tolerance = 1 } }");
   script.run();
@@ -151,8 +152,8 @@ TEST_CASE("values may be text or null, what is not finite becomes null with a wa
 }
 
 TEST_CASE("further reports add figures, a name given again takes the earlier one's place", "[lua]") {
-  Script script(head + "cdem.report{ { name = 'a', value = 1 }, { name = 'b', value = 2 } }\n"
-                       "cdem.report{ { name = 'c', value = 3 }, { name = 'a', value = 4 } }");
+  Script script(report_head + "cdem.report{ { name = 'a', value = 1 }, { name = 'b', value = 2 } }\n"
+                              "cdem.report{ { name = 'c', value = 3 }, { name = 'a', value = 4 } }");
   script.run();
   const std::string json = script.read("report.json");
   CHECK(entry(json, 0).at("value").number() == 4);
@@ -161,22 +162,26 @@ TEST_CASE("further reports add figures, a name given again takes the earlier one
 }
 
 TEST_CASE("a report that cannot be judged is refused", "[lua]") {
-  CHECK_THAT(error_of(head + "cdem.report{ { name = 'a', value = 1, reference = 2 } }"),
+  CHECK_THAT(error_of(report_head + "cdem.report{ { name = 'a', value = 1, reference = 2 } }"),
              Contains("a: kind: missing"));
-  CHECK_THAT(error_of(head + "cdem.report{ { name = 'a', value = 1, reference = 2, kind = 'trail' } }"),
-             Contains("did you mean \"trial\"?"));
-  CHECK_THAT(error_of(head + "cdem.report{ { name = 'a', reference = 2, kind = 'trial', tolerance = 1 } }"),
-             Contains("never judged"));
-  CHECK_THAT(error_of(head + "cdem.report{ { name = 'a', tolerance = 1, tolerance_absolute = 1 } }"),
+  CHECK_THAT(
+      error_of(report_head + "cdem.report{ { name = 'a', value = 1, reference = 2, kind = 'trail' } }"),
+      Contains("did you mean \"trial\"?"));
+  CHECK_THAT(
+      error_of(report_head + "cdem.report{ { name = 'a', reference = 2, kind = 'trial', tolerance = 1 } }"),
+      Contains("never judged"));
+  CHECK_THAT(error_of(report_head + "cdem.report{ { name = 'a', tolerance = 1, tolerance_absolute = 1 } }"),
              Contains("not both"));
-  CHECK_THAT(error_of(head + "cdem.report{ name = 'a', value = 1 }"), Contains("one more pair of braces"));
-  CHECK_THAT(error_of(head + "cdem.report{ { value = 1 } }"), Contains("figures[1]: name: missing"));
+  CHECK_THAT(error_of(report_head + "cdem.report{ name = 'a', value = 1 }"),
+             Contains("one more pair of braces"));
+  CHECK_THAT(error_of(report_head + "cdem.report{ { value = 1 } }"), Contains("figures[1]: name: missing"));
 }
 
 TEST_CASE("booleans are reported, and judged by equality", "[lua]") {
-  Script script(head + "cdem.report{ { name = 'whole', value = true, reference = true, kind = 'paper' },\n"
-                       "  { name = 'cut', value = false, reference = true, kind = 'paper' },\n"
-                       "  { name = 'converged', value = true } }");
+  Script script(report_head +
+                "cdem.report{ { name = 'whole', value = true, reference = true, kind = 'paper' },\n"
+                "  { name = 'cut', value = false, reference = true, kind = 'paper' },\n"
+                "  { name = 'converged', value = true } }");
   script.run();
   const std::string json = script.read("report.json");
   CHECK(*entry(json, 0).at("value").get<bool>());
@@ -184,5 +189,6 @@ TEST_CASE("booleans are reported, and judged by equality", "[lua]") {
   CHECK_FALSE(*entry(json, 1).at("within").get<bool>());
   CHECK(entry(json, 2).count("within") == 0);
   CHECK_THAT(script.read("report.md"), Contains("| cut | false |") && Contains("| **no** |"));
-  CHECK_THAT(error_of(head + "cdem.report{ { name = 'a', value = { 1 } } }"), Contains("a boolean or nil"));
+  CHECK_THAT(error_of(report_head + "cdem.report{ { name = 'a', value = { 1 } } }"),
+             Contains("a boolean or nil"));
 }

@@ -10,7 +10,7 @@ using Catch::Matchers::Equals;
 
 namespace {
 
-const std::string head =
+const std::string rock_head =
     "local cdem = require 'cdem'\n"
     "local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.25, density = 2500 }\n"
     "local weak = cdem.coulomb{ friction_angle = 30 }\n"
@@ -21,7 +21,7 @@ const std::string head =
     "glued = true }\n";
 
 std::string model(const std::string& more = ", joints = { bedding = weak }") {
-  return head +
+  return rock_head +
          "local m = cdem.model{ bodies = { { name = 'rock', shape = rocks, material = rock, joint = strong" +
          more + " } } }\n";
 }
@@ -39,7 +39,7 @@ TEST_CASE("a body has a law for each joint set, and glued cuts", "[lua][rock]") 
                                 "local c = m:counts()\nassert(c.interfaces == 4)\n"
                                 "assert(c.contacts == c.bonds / 2 and c.intact == c.bonds / 2)"),
              Equals(""));
-  CHECK_THAT(error_of(head +
+  CHECK_THAT(error_of(rock_head +
                       "local g = cdem.glued{}\nassert(g.bonded and g.glued and g.thickness_ratio == 0.005)\n"
                       "assert(tostring(g) == 'cdem.Joint (glued, never breaks)')"),
              Equals(""));
@@ -62,7 +62,7 @@ TEST_CASE("stress with depth is in balance, and a K0 that joints cannot bear is 
              Equals(""));
   CHECK_THAT(
       Script(
-          head +
+          rock_head +
           "local dipping = cdem.cut_by_plane{ shape = cdem.box{ size = {1, 1, 1} }, point = {0.5, 0.5, 0.4}, "
           "normal = {1, 0, 1}, name = 'fault' }\n"
           "local m = cdem.model{ bodies = { { shape = dipping, material = rock, joint = strong, joints = { "
@@ -123,7 +123,7 @@ TEST_CASE("the forces of an excavation stay, fall in a run and go when they are 
 TEST_CASE("a water table is a plane, a profile, a file or a surface", "[lua][rock]") {
   CHECK_THAT(
       error_of(
-          head +
+          rock_head +
           "local t = cdem.water_table{ point = {0, 0, 5}, dip = 45, dip_direction = 90 }\n"
           "assert(math.abs(t:height(2, 7) - 3) < 1e-12)\n"
           "local p = cdem.water_table{ profile = { {0, 5}, {2, 3} } }\n"
@@ -143,41 +143,43 @@ TEST_CASE("a water table is a plane, a profile, a file or a surface", "[lua][roc
                       "m:traction{ on = 'x-', water_table = t }"),
              Equals(""));
   CHECK_THAT(
-      error_of(head +
+      error_of(rock_head +
                "local p = cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {0, 4, 3}, {4, 4, 3} } }\n"
                "assert(math.abs(p:height(3, 2) - 2) < 1e-12 and p:height(5, 0) == nil)\n"
                "cdem.write_csv{ file = 'holes.csv', columns = { { name = 'X', values = {0, 4, 0} }, "
                "{ name = 'Y', values = {0, 0, 4} }, { name = 'Z', values = {1, 1, 3} } } }\n"
                "assert(math.abs(cdem.water_table{ file = 'holes.csv' }:height(1, 2) - 2) < 1e-12)"),
       Equals(""));
-  CHECK_THAT(error_of(head + "cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {8, 0, 3} } }"),
+  CHECK_THAT(error_of(rock_head + "cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {8, 0, 3} } }"),
              Contains("on one line in plan"));
-  CHECK_THAT(error_of(head + "cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {4, 1, 3}, {4, 0, 2} } }"),
-             Contains("points[4]") && Contains("point 2 is there already"));
-  CHECK_THAT(error_of(head + "cdem.water_table{ dip = 10 }"), Contains("point: missing"));
-  CHECK_THAT(error_of(head + "cdem.water_table{}"), Contains("give one of dip"));
-  CHECK_THAT(error_of(head + "cdem.water_table{ dip = 10, profile = { {0, 5}, {2, 3} } }"),
+  CHECK_THAT(
+      error_of(rock_head + "cdem.water_table{ points = { {0, 0, 1}, {4, 0, 1}, {4, 1, 3}, {4, 0, 2} } }"),
+      Contains("points[4]") && Contains("point 2 is there already"));
+  CHECK_THAT(error_of(rock_head + "cdem.water_table{ dip = 10 }"), Contains("point: missing"));
+  CHECK_THAT(error_of(rock_head + "cdem.water_table{}"), Contains("give one of dip"));
+  CHECK_THAT(error_of(rock_head + "cdem.water_table{ dip = 10, profile = { {0, 5}, {2, 3} } }"),
              Contains("give one of dip"));
-  CHECK_THAT(error_of(head + "cdem.water_table{ point = {0, 0, 1}, profile = { {0, 5}, {2, 3} } }"),
+  CHECK_THAT(error_of(rock_head + "cdem.water_table{ point = {0, 0, 1}, profile = { {0, 5}, {2, 3} } }"),
              Contains("point: goes with dip, not with profile"));
-  CHECK_THAT(error_of(head +
+  CHECK_THAT(error_of(rock_head +
                       "cdem.write_csv{ file = 'table.csv', columns = { { name = 'x', values = {0, 2} } } }\n"
                       "cdem.water_table{ file = 'table.csv' }"),
              Contains("its columns must be distance and z"));
   CHECK_THAT(
-      error_of(head +
+      error_of(rock_head +
                "cdem.write_csv{ file = 'table.csv', columns = { { name = 'distance', values = {0, 0} }, "
                "{ name = 'z', values = {5, 3} } } }\ncdem.water_table{ file = 'table.csv' }"),
       Contains("table.csv") && Contains("distances rise"));
-  CHECK_THAT(Script(head + "cdem.water_table{ point = {0, 0, 1}, dip = 50, dip_direction = 90 }").printed(),
-             Contains("dip = 50") && Contains("cos(dip)^2"));
+  CHECK_THAT(
+      Script(rock_head + "cdem.water_table{ point = {0, 0, 1}, dip = 50, dip_direction = 90 }").printed(),
+      Contains("dip = 50") && Contains("cos(dip)^2"));
 }
 
 TEST_CASE("a stereonet draws poles of lists, discs and cut blocks, and says what it drew in a table",
           "[lua][rock]") {
   CHECK_THAT(
       error_of(
-          head +
+          rock_head +
           "cdem.stereonet{ file = 'net.png', size = {400, 300}, shape = rocks,\n"
           "  poles = { { name = 'survey, north', planes = { {30, 90} } } },\n"
           "  discs = { { centre = {0, 0, 0}, dip = 90, dip_direction = 0, radius = 1, set = 'J1' } },\n"
@@ -197,17 +199,17 @@ TEST_CASE("a stereonet draws poles of lists, discs and cut blocks, and says what
           "assert(bedding.name == 'bedding' and bedding.dip == 0)\n" // once, though it makes four faces
           "assert(face.kind == 'plane' and face.dip == 60 and math.abs(face.y - math.sqrt(0.5)) < 1e-8)"),
       Equals(""));
-  CHECK_THAT(error_of(head + "cdem.stereonet{ file = 'net.png' }"),
+  CHECK_THAT(error_of(rock_head + "cdem.stereonet{ file = 'net.png' }"),
              Contains("give poles, discs, shape or planes"));
-  CHECK_THAT(error_of(head + "cdem.stereonet{ file = 'net.png', shape = cdem.box{ size = {1, 1, 1} } }"),
+  CHECK_THAT(error_of(rock_head + "cdem.stereonet{ file = 'net.png', shape = cdem.box{ size = {1, 1, 1} } }"),
              Contains("no joint set or cut"));
   CHECK_THAT(
       error_of(
-          head +
+          rock_head +
           "cdem.stereonet{ file = 'net.png', poles = { { name = 'a', planes = { {30, 90}, {95, 0} } } } }"),
       Contains("poles[1].planes[2]") && Contains("a dip from 0 to 90 degrees"));
   CHECK_THAT(
-      error_of(head +
+      error_of(rock_head +
                "cdem.stereonet{ file = 'net.bmp', planes = { { name = 'a', dip = 3, dip_direction = 0 } } }"),
       Contains(".png"));
 }

@@ -13,7 +13,7 @@ using Catch::Matchers::Equals;
 namespace {
 
 // A block on an incline of 25 degrees that leans with gravity: F = tan(phi) / tan(25).
-const std::string head =
+const std::string safety_head =
     "local cdem = require 'cdem'\n"
     "local stone = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }\n"
     "local function incline(phi)\n"
@@ -43,7 +43,7 @@ std::string has_fields_of(const std::string& table, const std::string& record) {
 
 TEST_CASE("a relaxation answers, and the script goes on", "[lua][safety]") {
   Script script(
-      head +
+      safety_head +
       "local m = incline(20)\nlocal r = m:relax{}\n"
       "assert(r.verdict == 'failing' and not r.converged and r.moving > 0)\n"
       "m:picture{ file = 'failing.png' }\nm:save{ file = 'failing.vtu' }\n"
@@ -61,7 +61,7 @@ TEST_CASE("a relaxation answers, and the script goes on", "[lua][safety]") {
 TEST_CASE("the factor of safety of a block on an incline is tan(phi) / tan(a)", "[lua][safety]") {
   const std::string search = "reduce = {'joints'}, lower = 0.9, upper = 2, tolerance = 0.02, residual = 1e-5";
   Script script(
-      head +
+      safety_head +
       "local m = incline(35)\nm:relax{ residual = 1e-5 }\nlocal before = m.state_hash\n"
       "local f = cdem.factor_of_safety{ model = m, picture = 'mechanism.png', " +
       search +
@@ -80,7 +80,7 @@ TEST_CASE("the factor of safety of a block on an incline is tan(phi) / tan(a)", 
 }
 
 TEST_CASE("a factor of safety tells of a trial that stands only after a long way", "[lua][safety]") {
-  Script script(head + R"(
+  Script script(safety_head + R"(
 local soft = cdem.elastic{ youngs_modulus = 2e6, poissons_ratio = 0.2, density = 2500 }
 local function held()
   local m = cdem.model{ bodies = {
@@ -144,15 +144,15 @@ TEST_CASE("the tables of a factor of safety have the fields that the reference l
   const std::string search = "local f = cdem.factor_of_safety{ model = incline(35), reduce = {'joints'}, "
                              "lower = 0.9, upper = 2, tolerance = 1 }\n" +
                              has_fields_of("f", "FactorOfSafety") + has_fields_of("f.mechanism", "Mechanism");
-  CHECK(error_of(head + search + has_fields_of("f.trials[1]", "SafetyTrial")) == "");
-  Script checked(head + search);
+  CHECK(error_of(safety_head + search + has_fields_of("f.trials[1]", "SafetyTrial")) == "");
+  Script checked(safety_head + search);
   checked.settings.check_only = true;
   CHECK(checked.error() == "");
 }
 
 TEST_CASE("a factor of safety says what it lacks", "[lua][safety]") {
   const auto search = [](const std::string& more) {
-    return error_of(head + "local m = incline(35)\ncdem.factor_of_safety{ " + more + " }");
+    return error_of(safety_head + "local m = incline(35)\ncdem.factor_of_safety{ " + more + " }");
   };
   CHECK_THAT(search("reduce = {'joints'}"), Contains("model, builder: give one of them"));
   CHECK_THAT(search("model = m"), Contains("reduce: missing"));
@@ -172,7 +172,7 @@ TEST_CASE("a factor of safety says what it lacks", "[lua][safety]") {
 }
 
 TEST_CASE("a script with a factor of safety can be checked", "[lua][safety]") {
-  Script script(head +
+  Script script(safety_head +
                 "local m = incline(35)\n"
                 "local f = cdem.factor_of_safety{ model = m, reduce = {'joints'}, picture = 'a.png' }\n"
                 "f.failing:picture{ file = 'b.png' }\nassert(#f.trials == 0 and #f.mechanism.blocks == 0)");
@@ -183,7 +183,7 @@ TEST_CASE("a script with a factor of safety can be checked", "[lua][safety]") {
 TEST_CASE("a search from a model that has run away is warned of", "[lua][safety]") {
   const auto warned = [](const std::string& before) {
     Script script(
-        head + before +
+        safety_head + before +
         "cdem.factor_of_safety{ model = m, reduce = {'joints'}, lower = 0.5, upper = 2, tolerance = 1 }");
     CHECK(script.error() == "");
     int lines = 0;
@@ -198,17 +198,17 @@ TEST_CASE("a search from a model that has run away is warned of", "[lua][safety]
 }
 
 TEST_CASE("a copy of a model goes its own way", "[lua][safety]") {
-  CHECK_THAT(error_of(head + "local m = incline(35)\nm:relax{ residual = 1e-5 }\nlocal c = m:copy()\n"
-                             "assert(c.state_hash == m.state_hash)\n"
-                             "c:reduce_strength{ factor = 2, reduce = {'joints'} }\n"
-                             "assert(c:relax{ trial = 'half' }.verdict == 'failing')\n"
-                             "assert(m:relax{ residual = 1e-5 }.verdict == 'stable')"),
+  CHECK_THAT(error_of(safety_head + "local m = incline(35)\nm:relax{ residual = 1e-5 }\nlocal c = m:copy()\n"
+                                    "assert(c.state_hash == m.state_hash)\n"
+                                    "c:reduce_strength{ factor = 2, reduce = {'joints'} }\n"
+                                    "assert(c:relax{ trial = 'half' }.verdict == 'failing')\n"
+                                    "assert(m:relax{ residual = 1e-5 }.verdict == 'stable')"),
              Equals(""));
 }
 
 TEST_CASE("plasticity of blocks and of regions", "[lua][safety]") {
-  const std::string soil = head + "local soil = cdem.plastic{ cohesion = 1e4, friction_angle = 20, "
-                                  "tensile_strength = 1e3 }\n";
+  const std::string soil = safety_head + "local soil = cdem.plastic{ cohesion = 1e4, friction_angle = 20, "
+                                         "tensile_strength = 1e3 }\n";
   CHECK_THAT(error_of(soil +
                       "assert(soil.friction_angle == 20 and soil.dilation_angle == 0)\n"
                       "cdem.model{ bodies = { { shape = cdem.box{ size = {1, 1, 1} }, material = stone, "
@@ -222,7 +222,8 @@ TEST_CASE("plasticity of blocks and of regions", "[lua][safety]") {
                       "cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {1, 1, 1}, divisions = {1, 1, "
                       "1} }, material = stone, region_plasticity = { { 2, soil } } } } }"),
              Contains("region_plasticity = 2"));
-  CHECK_THAT(error_of(head + "cdem.plastic{ cohesion = 1e4, friction_angle = 20, tensile_strength = 0, "
-                             "residual_cohesion = 0 }"),
+  CHECK_THAT(error_of(safety_head +
+                      "cdem.plastic{ cohesion = 1e4, friction_angle = 20, tensile_strength = 0, "
+                      "residual_cohesion = 0 }"),
              Contains("softening_strain: goes together"));
 }

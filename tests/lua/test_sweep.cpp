@@ -105,13 +105,14 @@ TEST_CASE("a sweep runs each case with its settings and returns the figures of i
 }
 
 TEST_CASE("a sweep that cannot work is refused", "[lua]") {
-  const std::string head = "local cdem = require 'cdem'\n";
-  CHECK_THAT(error_of(head + "cdem.sweep{ script = 'case.lua', set = { { a = 1 } } }"),
+  const std::string sweep_head = "local cdem = require 'cdem'\n";
+  CHECK_THAT(error_of(sweep_head + "cdem.sweep{ script = 'case.lua', set = { { a = 1 } } }"),
              Contains("a script that sweeps itself would never end"));
-  Script lonely(head + "cdem.sweep{ script = 'one.lua', set = { { a = 1 } } }");
+  Script lonely(sweep_head + "cdem.sweep{ script = 'one.lua', set = { { a = 1 } } }");
   lonely.write("one.lua", "");
   CHECK_THAT(lonely.error(), Contains("only from the cdem program"));
-  CHECK_THAT(error_of(head + "cdem.sweep{ script = 'case.lua', set = {} }"),
+  CHECK_THAT(error_of(sweep_head + "cdem.sweep{ script = 'case.lua', set = {} }"),
              Contains("set = {}: must be a list of at least 1 item"));
-  CHECK_THROWS_AS(error_of(head + "cdem.sweep{ script = 'missing.lua', set = { { a = 1 } } }"), FileError);
+  CHECK_THROWS_AS(error_of(sweep_head + "cdem.sweep{ script = 'missing.lua', set = { { a = 1 } } }"),
+                  FileError);
 }

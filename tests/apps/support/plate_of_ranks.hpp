@@ -14,15 +14,15 @@ namespace testing {
 
 inline const std::string plate = shaken_plate("{1.2, 0.5, 0.05}", "{24, 10, 1}", 400);
 
-struct Place : CaseFolder {
-  explicit Place(const std::string& text = plate) : CaseFolder({{"plate/case.lua", text}}) {}
+struct PlateFolder : CaseFolder {
+  explicit PlateFolder(const std::string& text = plate) : CaseFolder({{"plate/case.lua", text}}) {}
   std::string report() const { return read_file(folder / "out/report.json"); }
   std::string log() const { return read_file(folder / "out/cdem.log"); }
 };
 
 inline const std::string& report_of_one() {
   static const std::string report = [] {
-    Place place;
+    PlateFolder place;
     REQUIRE(place.cdem({"run", "plate/case.lua", "--output", "out", "--threads", "1"}).exit_code == 0);
     return place.report();
   }();

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace testing {
+
+inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double degree = pi / 180;
+
+} // namespace testing
