@@ -16,13 +16,13 @@ using geom::Vec3;
 
 namespace {
 
-constexpr double g = 9.81, a = 25 * degree, water = 1025;
+constexpr double g = 9.81, slope = 25 * degree, water_density = 1025;
 // m/s2, of F over the mass of the cube when it goes.
 double critical_acceleration(double mu) {
-  return (1 - water / rock().density) * g * (std::sin(a) + std::min(mu, 1.0) * std::cos(a));
+  return (1 - water_density / rock().density) * g * (std::sin(slope) + std::min(mu, 1.0) * std::cos(slope));
 }
 double critical_velocity(double size, double mu) {
-  return std::sqrt(2 * rock().density * size * critical_acceleration(mu) / water);
+  return std::sqrt(2 * rock().density * size * critical_acceleration(mu) / water_density);
 }
 
 geom::TetMesh box(const Vec3& size, const std::array<int, 3>& divisions, const Vec3& corner) {
@@ -67,13 +67,13 @@ struct Cube {
     fix.on = cdem::Selection::of_body("slope");
     model.fix(fix);
     cdem::Gravity gravity;
-    gravity.acceleration = g * Vec3(-std::sin(a), 0, -std::cos(a));
-    gravity.water_density = water;
+    gravity.acceleration = g * Vec3(-std::sin(slope), 0, -std::cos(slope));
+    gravity.water_density = water_density;
     model.gravity(gravity);
     cdem::Flow flow;
     flow.on = {cdem::Selection::of_body("cube")};
     flow.direction = {1, 0, 0};
-    flow.water_density = water;
+    flow.water_density = water_density;
     flow.relative = false; // the statics are those of a cube at rest
     flow.velocity = [this](double time) { return velocity + rate * std::max(0.0, time - since); };
     model.flow(flow);

@@ -13,17 +13,17 @@ using geom::Vec3;
 
 namespace {
 
-const Vec3 size(1.0, 0.8, 1.2);
+const Vec3 box_size(1.0, 0.8, 1.2);
 
 // A crooked box: "root" is its side z-, "nose" half of its side x+.
 geom::TetMesh unit_at(const Vec3& place) {
-  geom::TetMesh mesh = geom::box_mesh(size, {3, 2, 4}, 0.15);
+  geom::TetMesh mesh = geom::box_mesh(box_size, {3, 2, 4}, 0.15);
   const auto faces = geom::outer_faces(mesh);
   mesh.named["root"] = geom::faces_on_side(mesh, faces, "z-");
   for (const int face : geom::faces_on_side(mesh, faces, "x+"))
     if (mesh.nodes[faces[face].nodes[0]].z() + mesh.nodes[faces[face].nodes[1]].z() +
             mesh.nodes[faces[face].nodes[2]].z() <
-        1.5 * size.z())
+        1.5 * box_size.z())
       mesh.named["nose"].push_back(face);
   for (Vec3& x : mesh.nodes)
     x += place;
@@ -61,9 +61,9 @@ TEST_CASE("named faces: a traction pulls with area times stress, on every unit o
   System s(build({two_units(GENERATE(false, true))}));
   const Vec3 stress(3e4, -1e4, 2e5);
   s.conditions.tractions = {{cdem::Selection::of_faces("root"), stress, {}}};
-  CHECK((resultant(s) - 2 * size.x() * size.y() * stress).norm() < 1e-12 * stress.norm());
+  CHECK((resultant(s) - 2 * box_size.x() * box_size.y() * stress).norm() < 1e-12 * stress.norm());
   s.conditions.tractions = {{cdem::Selection::of_faces("nose", "units"), stress, {}}};
-  CHECK((resultant(s) - 2 * size.y() * 0.5 * size.z() * stress).norm() < 1e-12 * stress.norm());
+  CHECK((resultant(s) - 2 * box_size.y() * 0.5 * box_size.z() * stress).norm() < 1e-12 * stress.norm());
 }
 
 TEST_CASE("named faces: a flow pushes on them alone, with its pressure times the cosine", "[faces]") {
@@ -73,7 +73,8 @@ TEST_CASE("named faces: a flow pushes on them alone, with its pressure times the
   flow.direction = {3, 0, 4}; // 0.8 of it against the root
   flow.velocity = [](double) { return 10; };
   s.conditions.flows = {flow};
-  const Vec3 expected = cdem::flow_pressure(10, 1025) * 0.8 * 2 * size.x() * size.y() * Vec3(0.6, 0, 0.8);
+  const Vec3 expected =
+      cdem::flow_pressure(10, 1025) * 0.8 * 2 * box_size.x() * box_size.y() * Vec3(0.6, 0, 0.8);
   CHECK((resultant(s) - expected).norm() < 1e-12 * expected.norm());
 }
 
@@ -104,10 +105,10 @@ TEST_CASE("named faces: what is held there stays, carries the weight, and surviv
   s.relax({});
   CHECK(s.max("displacement.magnitude", root).value == 0);
   CHECK(s.max("displacement.magnitude").value > 1e-7);
-  const double weight = 3 * rock().density * size.prod();
+  const double weight = 3 * rock().density * box_size.prod();
   CHECK((s.reaction(root) - weight * Vec3(-1, 0, 9.81)).norm() < 1e-4 * weight);
   // Pressed by the weight over the area of the root: rho g h, but for bending.
-  CHECK(s.mean("stress.zz", root) == Approx(-rock().density * 9.81 * size.z()).epsilon(0.15));
+  CHECK(s.mean("stress.zz", root) == Approx(-rock().density * 9.81 * box_size.z()).epsilon(0.15));
 
   // A model that is no longer as it was built is saved with the state; its faces keep their names.
   s.make_rigid(cdem::Selection::of_faces("root", "stone"));

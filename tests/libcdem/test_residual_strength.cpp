@@ -12,7 +12,7 @@ using geom::Vec3;
 namespace {
 
 const cdem::JointSpring spring{1e9, 0.5e9, 0.6};
-const Vec3 normal(0, 0, 1);
+const Vec3 face_normal(0, 0, 1);
 
 // A spring that is taken along a path and keeps its books.
 struct Spring {
@@ -21,13 +21,15 @@ struct Spring {
   cdem::JointHistory history;
   double work = 0, lost = 0;
 
-  double stored() const { return cdem::joint_stored(law, spring, normal, jump - offset, history.parted); }
+  double stored() const {
+    return cdem::joint_stored(law, spring, face_normal, jump - offset, history.parted);
+  }
   void go_to(const Vec3& end, int steps = 200) {
     const Vec3 start = jump;
     for (int i = 1; i <= steps; ++i) {
       const double before = stored();
       const Vec3 next = start + (end - start) * i / steps;
-      const cdem::JointResponse r = cdem::joint_response(law, spring, normal, next, offset, history);
+      const cdem::JointResponse r = cdem::joint_response(law, spring, face_normal, next, offset, history);
       const double done = 0.5 * (traction + r.traction).dot(next - jump);
       jump = next;
       offset = r.offset;
@@ -44,7 +46,7 @@ struct Spring {
       const double x = start + (slip - start) * i / steps;
       for (int k = 0; k < 40; ++k) { // the opening at which the pressure is as asked for
         const cdem::JointResponse r =
-            cdem::joint_response(law, spring, normal, {x, 0, jump.z()}, offset, history);
+            cdem::joint_response(law, spring, face_normal, {x, 0, jump.z()}, offset, history);
         const double excess = -r.traction.z() - pressure;
         if (std::abs(excess) < 1e-6 * pressure)
           break;

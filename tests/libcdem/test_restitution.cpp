@@ -10,7 +10,7 @@ using geom::Vec3;
 
 namespace {
 
-const double cube_side = 0.4, gap = 1e-4; // m
+const double cube_side = 0.4, first_gap = 1e-4; // m
 const double stiffness =
     2e9; // Pa/m of the contact: the cube has E / side = 1e11, so waves in it keep nothing
 const double period =
@@ -37,7 +37,7 @@ cdem::Simulation cube_over_floor(const cdem::Joint& law, cdem::Element element, 
   cdem::ModelSpec spec;
   spec.bodies = {meshed("floor", box({1, 1, 0.2}, {3, 3, 1}, {0, 0, -0.2})),
                  meshed("cube", box({cube_side, cube_side, cube_side}, {divisions, divisions, divisions},
-                                    {0.313, 0.278, gap}))};
+                                    {0.313, 0.278, first_gap}))};
   spec.bodies[0].element = cdem::Element::rigid;
   spec.bodies[1].element = element;
   spec.default_contact = law;
@@ -59,7 +59,7 @@ TEST_CASE("bodies bounce with the restitution of their contact, rigid and deform
     s.initial_velocity(cdem::Selection::of_body("cube"), {0, 0, -1});
     cdem::RunOptions options;
     options.duration =
-        2 * gap + 1.5 * period; // on a floor of larger triangles the contact is up to half as stiff
+        2 * first_gap + 1.5 * period; // on a floor of larger triangles the contact is up to half as stiff
     options.safety = safety;
     s.run(options);
     return std::pair(mean_velocity(s), s.energy().balance_error());

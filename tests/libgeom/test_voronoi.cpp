@@ -15,29 +15,29 @@ namespace {
 double shortest_edge(const Assembly& assembly) {
   double shortest = 1e300;
   for (const Polyhedron& block : assembly.blocks)
-    for (const auto& [a, b] : edges(block))
-      shortest = std::min(shortest, (block.vertices[a] - block.vertices[b]).norm());
+    for (const auto& [from, to] : edges(block))
+      shortest = std::min(shortest, (block.vertices[from] - block.vertices[to]).norm());
   return shortest;
 }
 
 void check_fills_box(const VoronoiOptions& o) {
-  const Assembly a = voronoi(o);
-  REQUIRE(a.blocks.size() == static_cast<std::size_t>(o.count));
-  for (const Polyhedron& block : a.blocks)
+  const Assembly cells = voronoi(o);
+  REQUIRE(cells.blocks.size() == static_cast<std::size_t>(o.count));
+  for (const Polyhedron& block : cells.blocks)
     CHECK_NOTHROW(validate(block));
   const double box = o.size.prod();
-  CHECK(testing::total_volume(a) == Approx(box).epsilon(1e-10));
-  CHECK(bounding_box(a).min == o.origin);
-  CHECK(bounding_box(a).max == Vec3(o.origin + o.size));
+  CHECK(testing::total_volume(cells) == Approx(box).epsilon(1e-10));
+  CHECK(bounding_box(cells).min == o.origin);
+  CHECK(bounding_box(cells).max == Vec3(o.origin + o.size));
   const double surface = testing::box_surface(o.size);
-  CHECK(testing::loose_area(a, surface, 1e-9 * std::cbrt(box / o.count)) <
+  CHECK(testing::loose_area(cells, surface, 1e-9 * std::cbrt(box / o.count)) <
         1e-10 * testing::box_surface(o.size) * 10);
   // Where faces match, neighbours share their corners to the last bit.
-  for (const SharedFace& s : shared_faces(a.blocks, 1e-9 * std::cbrt(box / o.count))) {
+  for (const SharedFace& s : shared_faces(cells.blocks, 1e-9 * std::cbrt(box / o.count))) {
     const auto corners = [&](int block, int face) {
       std::vector<std::array<double, 3>> list;
-      for (int v : a.blocks[block].faces[face].loop) {
-        const Vec3& x = a.blocks[block].vertices[v];
+      for (int v : cells.blocks[block].faces[face].loop) {
+        const Vec3& x = cells.blocks[block].vertices[v];
         list.push_back({x.x(), x.y(), x.z()});
       }
       std::sort(list.begin(), list.end());
