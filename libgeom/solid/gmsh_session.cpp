@@ -8,9 +8,20 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+// Of gmsh_entries.sh. Programs that are linked with gmsh itself, as through the public libraries, have none.
+extern "C" {
+struct GmshEntry {
+  const char* name;
+  void** address;
+};
+extern const GmshEntry gmsh_entries[] __attribute__((weak)); // ends with one without a name
+extern const char gmsh_library[] __attribute__((weak));
+}
 
 namespace geom {
 namespace {
@@ -27,6 +38,21 @@ std::string next_file(const std::string& ending) {
 }
 
 } // namespace
+
+void load_gmsh() {
+  static const bool loaded = [] {
+    const GmshEntry* entry = gmsh_entries;
+    if (!entry)
+      return true;
+    void* const library = dlopen(gmsh_library, RTLD_LAZY | RTLD_LOCAL);
+    if (!library)
+      throw std::runtime_error(std::string("cannot load the geometry kernel: ") + dlerror());
+    for (; entry->name; ++entry)
+      *entry->address = dlsym(library, entry->name);
+    return true;
+  }();
+  static_cast<void>(loaded);
+}
 
 void start_gmsh(const PrivateFolder& folder) {
   session_folder() = folder.path();

@@ -46,6 +46,9 @@ private:
   std::string path_;
 };
 
+// Loads gmsh's library into this process, once: programs that make no solid start six times as fast without it.
+void load_gmsh();
+
 // Starts gmsh in a child, with `folder` as its home and for TemporaryFile. The parent deletes the folder, so that a
 // crash leaves none.
 void start_gmsh(const PrivateFolder& folder);
@@ -54,6 +57,7 @@ void start_gmsh(const PrivateFolder& folder);
 template <class Body>
 auto in_session(const std::string& what, const ChildLimits& limits, Body body) {
   const PrivateFolder folder;
+  load_gmsh();
   const std::string bytes = run_in_child(what, limits, [&] {
     try {
       start_gmsh(folder);
