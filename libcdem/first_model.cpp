@@ -77,7 +77,9 @@ public:
     if (joint.bonded && !(are_blocks(a, b) && a != b))
       throw geom::InputError(
           field, value, "cdem.coulomb{ friction_angle = ... } between meshes",
-          "meshed bodies are not bonded to each other; unite them to one solid before meshing");
+          "only bodies of convex blocks are bonded to each other: unite meshes of one material to one solid "
+          "before "
+          "meshing (regions of it may have joints), build bodies of different materials from blocks");
     if (!are_blocks(a, b))
       require_law_of_meshes(joint, field, value);
     if (!add_to(frame_.surface.joint, a, b, contact_of(a, b, joint)))

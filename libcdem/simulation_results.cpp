@@ -136,7 +136,9 @@ double Simulation::mean(const std::string& field, const Selection& on) const {
 
 double Simulation::at(const std::string& field, const geom::Vec3& place) const {
   check_field(field);
-  return value_at(impl_->model, impl_->whole(), field, place);
+  const double value = value_at(impl_->model, impl_->whole(), field, place);
+  impl_->warnings.of_shared_place("at \"" + field + "\"", place);
+  return value;
 }
 
 Unbalance Simulation::unbalance(std::optional<double> reference) const {
@@ -189,6 +191,7 @@ void Simulation::probe(const std::string& name, const std::string& field, const 
   for (const Probe& probe : impl_->log.probes)
     if (probe.name == name)
       throw geom::InputError("name", "\"" + name + "\"", "unique among the probes");
+  impl_->warnings.of_shared_place("probe \"" + name + "\"", place);
   impl_->log.probes.push_back({name, field, place});
 }
 

@@ -146,6 +146,21 @@ void Warnings::of_held_records() {
   }
 }
 
+void Warnings::of_shared_place(const std::string& asks, const geom::Vec3& place) {
+  if (of_.replaying)
+    return;
+  const std::shared_ptr<const TetsByPlace> tets = tets_by_place(model_);
+  const auto at = tets->find(model_, place);
+  if (!at)
+    return;
+  const int body = model_.blocks[at->block].body;
+  if (const auto other = tets->find_beside(model_, place, body))
+    tell(fmt::format("{}: ({:g}, {:g}, {:g}) m lies in two bodies, \"{}\" and \"{}\": the value is that of "
+                     "\"{}\"; for the other, move the place a little into it",
+                     asks, place.x(), place.y(), place.z(), model_.bodies[body].name,
+                     model_.bodies[model_.blocks[other->block].body].name, model_.bodies[body].name));
+}
+
 void Warnings::of_lost_probes() {
   for (const Probe& probe : log_.probes)
     if (!of_.replaying && probe.on.empty() && probe.crack.empty() &&

@@ -22,7 +22,8 @@ public:
   void of_distant_table(const std::shared_ptr<const WaterTable>&);
   void of_open_water(const StillWater&);
   void of_joined_pieces(const Selection& turns_rigid);
-  void of_lost_probes();    // when rock has been removed
+  void of_shared_place(const std::string& asks, const geom::Vec3& place); // asks: who wants a value there
+  void of_lost_probes();                                                  // when rock has been removed
   void of_falling_forces(); // of an excavation, before a relaxation
   // Looks which flows wet a face between these times of a run, s.
   void look_for_dry_flows(double begin, double end);

@@ -85,16 +85,29 @@ std::size_t TetsByPlace::number(const std::array<int, 3>& box) const {
   return (static_cast<std::size_t>(box[0]) * count_[1] + box[1]) * count_[2] + box[2];
 }
 
-std::optional<PlaceInTet> TetsByPlace::find(const Model& model, const geom::Vec3& place) const {
+template <class Looked>
+std::optional<PlaceInTet> TetsByPlace::find_of(const Model& model, const geom::Vec3& place,
+                                               const Looked& looked) const {
   if (!place.allFinite())
     return std::nullopt;
   const std::size_t box = number({box_of(place.x(), 0), box_of(place.y(), 1), box_of(place.z(), 2)});
   for (std::int64_t i = begin_[box]; i < begin_[box + 1]; ++i) {
-    const int tet = tets_[static_cast<std::size_t>(i)];
-    if (auto found = inside(model, model.tet_block[tet], tet, place))
+    const int tet = tets_[static_cast<std::size_t>(i)], block = model.tet_block[tet];
+    if (!looked(block))
+      continue;
+    if (auto found = inside(model, block, tet, place))
       return found;
   }
   return std::nullopt;
+}
+
+std::optional<PlaceInTet> TetsByPlace::find(const Model& model, const geom::Vec3& place) const {
+  return find_of(model, place, [](int) { return true; });
+}
+
+std::optional<PlaceInTet> TetsByPlace::find_beside(const Model& model, const geom::Vec3& place,
+                                                   int body) const {
+  return find_of(model, place, [&](int block) { return model.blocks[block].body != body; });
 }
 
 std::shared_ptr<const TetsByPlace> tets_by_place(const Model& model) {

@@ -20,8 +20,12 @@ public:
   explicit TetsByPlace(const Model&);
   // The first tetrahedron of the first block, by its id, of those that hold the place; nothing where none does.
   std::optional<PlaceInTet> find(const Model&, const geom::Vec3& place) const;
+  // The same among the tetrahedra of all named bodies but `body`.
+  std::optional<PlaceInTet> find_beside(const Model&, const geom::Vec3& place, int body) const;
 
 private:
+  template <class Looked>
+  std::optional<PlaceInTet> find_of(const Model&, const geom::Vec3& place, const Looked&) const;
   int box_of(double x, int axis) const;
   std::size_t number(const std::array<int, 3>& box) const;
 

@@ -41,6 +41,20 @@ cdem::Model blocks_beside_a_mesh(const Vec3& away) {
 
 } // namespace
 
+TEST_CASE("a place on a face that two bodies share is found in both", "[results]") {
+  const cdem::Model model = blocks_beside_a_mesh({0, 0, 0});
+  const cdem::TetsByPlace tets(model);
+  for (const Vec3& place : {Vec3(1, 0.2, 0.2), Vec3(0.9, 0.2, 0.2), Vec3(1.1, 0.2, 0.2)}) {
+    const auto at = tets.find(model, place);
+    REQUIRE(at);
+    const int body = model.blocks[at->block].body;
+    const auto other = tets.find_beside(model, place, body);
+    REQUIRE(other.has_value() == (place.x() == 1));
+    if (other)
+      CHECK(model.blocks[other->block].body == 1 - body);
+  }
+}
+
 TEST_CASE("a place is found in the first tetrahedron that holds it, inside, on faces and at nodes",
           "[results]") {
   const Vec3 away = GENERATE(Vec3(0, 0, 0), Vec3(4e5, -2e5, 3e3));

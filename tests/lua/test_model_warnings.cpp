@@ -51,6 +51,27 @@ const std::string block = column("{4, 1, 4}", "{4, 1, 4}");
 
 } // namespace
 
+TEST_CASE("a value on a face that two bodies share is told of with the body that it is of", "[lua]") {
+  const std::string two = R"(local cdem = require 'cdem'
+local rock = cdem.elastic{ youngs_modulus = 1e8, poissons_ratio = 0.2, density = 2000 }
+local model = cdem.model{ bodies = {
+  { name = 'below', shape = cdem.box{ size = {1, 1, 1} }, material = rock },
+  { name = 'above', shape = cdem.box{ size = {1, 1, 1}, origin = {0, 0, 1} }, material = rock } },
+  contacts = { default = cdem.coulomb{ friction_angle = 40 } } }
+)";
+  const std::string words = "lies in two bodies";
+  const auto asked = [&](const std::string& z) {
+    return two + "model:probe{ name = 'p', field = 'stress.zz', at = {0.5, 0.4, " + z + "} }\n";
+  };
+  CHECK_THAT(
+      the_warning(asked("1"), words),
+      Contains("probe \"p\": (0.5, 0.4, 1) m lies in two bodies, \"below\" and \"above\": the value is that "
+               "of \"below\""));
+  CHECK(the_warning(asked("0.99"), words).empty());
+  CHECK_THAT(the_warning(two + "model:at('displacement.z', {0.5, 0.4, 1})\n", words),
+             Contains("at \"displacement.z\""));
+}
+
 TEST_CASE("what is recorded of a body that is held still is told of, at run and in a check", "[lua]") {
   const auto told = [&](const std::string& record, const std::string& words) {
     const std::string script = floor_and_units + record + "\n" + run;

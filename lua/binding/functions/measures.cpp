@@ -192,7 +192,10 @@ void bind_measures(Module& m) {
   model.add("mean", "Mean of a field: over nodes, or over blocks by volume.", {field, on}, mean, "number")
       .ordered_or_named();
   model
-      .add("at", "Value of a field at an undeformed place, interpolated in the block there.",
+      .add("at",
+           "Value of a field at an undeformed place, interpolated in the block there. Where two bodies share "
+           "a "
+           "face, it is the value of one of them, and a warning names it.",
            {field, vec3("place", "m").required()}, at, "number")
       .ordered_or_named();
   model
