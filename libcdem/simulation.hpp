@@ -74,7 +74,7 @@ struct PairSpec {
 
 struct ModelSpec {
   std::vector<BodySpec> bodies;
-  std::vector<PairSpec> pairs; // two bodies that touch and are not named here have the default
+  std::vector<PairSpec> pairs = {}; // two bodies that touch and are not named here have the default
   // The law between all pairs of bodies that are not named, and of a meshed body with itself. Without it two bodies
   // that touch and are not named: geom::InputError.
   std::optional<Joint> default_contact = {};

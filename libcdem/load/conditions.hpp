@@ -22,9 +22,9 @@ struct Fix {
   std::array<bool, 3> axes{true, true, true};
   bool release = false; // sets the components free instead; later ones win over earlier ones
   // m, total value; a relaxation moves there in its first steps, a run at a steady velocity until its end
-  std::optional<geom::Vec3> displacement;
-  std::optional<geom::Vec3> velocity; // m/s, in real-time stepping; zero when not given
-  Amplitude amplitude;                // of the velocity
+  std::optional<geom::Vec3> displacement = {};
+  std::optional<geom::Vec3> velocity = {}; // m/s, in real-time stepping; zero when not given
+  Amplitude amplitude = {};                // of the velocity
 };
 
 // Adds a fix. Earlier ones that it overrules altogether are dropped: a script may hold a place anew in every stage.
@@ -54,9 +54,9 @@ struct PointForce {
 struct Gravity {
   geom::Vec3 acceleration = geom::Vec3::Zero(); // m/s2
   double water_density = 0;                     // kg/m3; takes from the weight, never from the inertia
-  Amplitude amplitude;
+  Amplitude amplitude = {};
   // m/s2, in place of the acceleration; evaluated as an amplitude is. Empty: it keeps its direction.
-  std::function<geom::Vec3(double time)> turning;
+  std::function<geom::Vec3(double time)> turning = {};
 };
 
 // Dashpots on outer faces that let waves out (load/quiet.hpp), and a plane wave that enters through them.

@@ -98,9 +98,9 @@ std::vector<LegendEntry> legend_entries(const PictureOptions& options, const Bro
     entries.push_back({"water line", water_line_colour, 4 * pixel});
   if (!arrows.empty())
     entries.push_back({arrows.front().label, water_line_colour, 2.5 * pixel});
-  for (const Polyline& line : options.polylines)
-    if (!line.label.empty())
-      entries.push_back({line.label, line.colour, line.width * pixel, line.dashed});
+  for (const Polyline& drawn : options.polylines)
+    if (!drawn.label.empty())
+      entries.push_back({drawn.label, drawn.colour, drawn.width * pixel, drawn.dashed});
   if (options.deformation != 0 && options.deformation != 1)
     entries.push_back({"displacements \u00d7 " + geom::text(options.deformation)});
   return entries;

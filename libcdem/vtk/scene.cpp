@@ -260,7 +260,7 @@ void Scene::Impl::add_joints_from_side(const SceneInput& in, const View& view) {
     for (int k = 0; k < 3; ++k)
       ribbons.add(in.points[triangle[k]], in.points[triangle[(k + 1) % 3]], false);
     while (colours->GetNumberOfTuples() < static_cast<vtkIdType>(ribbons.triangles.size()))
-      colours->InsertNextTuple3(std::lround(255 * c[0]), std::lround(255 * c[1]), std::lround(255 * c[2]));
+      colours->InsertNextTuple3(std::round(255 * c[0]), std::round(255 * c[1]), std::round(255 * c[2]));
   }
   if (vtkActor* strips = add_unlit(ribbons.points, ribbons.triangles, edge_colour)) {
     vtkPolyDataMapper::SafeDownCast(strips->GetMapper())->GetInput()->GetCellData()->SetScalars(colours);

@@ -80,7 +80,7 @@ double energy_between(const geom::TetMesh& mesh, double fracture_energy) {
   double sum = 0;
   for (const geom::InnerFace& face : geom::inner_faces(mesh))
     if (mesh.region[face.tets[0]] != mesh.region[face.tets[1]]) {
-      const auto at = [&](int k) { return mesh.nodes[face.nodes[k]]; };
+      const auto at = [&](int corner) { return mesh.nodes[face.nodes[corner]]; };
       const Vec3 area = 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
       const double cosine = std::abs(area.z()) / area.norm(), tangent = std::sqrt(1 / (cosine * cosine) - 1);
       sum += fracture_energy * area.norm() / (cosine * cosine * std::sqrt(1 + tangent * tangent / 25));

@@ -74,10 +74,10 @@ cdem::Simulation pile(const std::shared_ptr<cdem::Observer>& observer) {
   cdem::Simulation s(spec, 1, observer);
   s.fix(fixed(cdem::Selection::side("z-")));
   s.gravity(gravity({1, 0, -9}));
-  cdem::Water water;
-  water.on = cdem::Selection::of_body("table");
-  water.pressure = [](const geom::Vec3&) { return 1e4; };
-  s.water(water);
+  cdem::Water wets;
+  wets.on = cdem::Selection::of_body("table");
+  wets.pressure = [](const geom::Vec3&) { return 1e4; };
+  s.water(wets);
   return s;
 }
 

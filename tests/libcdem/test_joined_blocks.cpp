@@ -212,11 +212,12 @@ struct Cantilever {
     cdem::join_blocks(spec);
     return spec;
   }
-  // pull: Pa, along the row, which lessens the bending the joint bears.
-  bool stands(double part, double pull = 0) {
-    s.conditions.forces = {{cdem::Selection::side("x+"),
-                            part * (1 - pull / strength) * at_strength * direction + Vec3(pull * area, 0, 0),
-                            {}}};
+  // drawn: Pa, along the row, which lessens the bending the joint bears.
+  bool stands(double part, double drawn = 0) {
+    s.conditions.forces = {
+        {cdem::Selection::side("x+"),
+         part * (1 - drawn / strength) * at_strength * direction + Vec3(drawn * area, 0, 0),
+         {}}};
     return is_stable(s);
   }
   static bool is_stable(System& s) {

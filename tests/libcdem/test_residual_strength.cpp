@@ -18,7 +18,7 @@ const Vec3 face_normal(0, 0, 1);
 struct Spring {
   cdem::JointLaw law;
   Vec3 jump = Vec3::Zero(), offset = Vec3::Zero(), traction = Vec3::Zero();
-  cdem::JointHistory history;
+  cdem::JointHistory history = {};
   double work = 0, lost = 0;
 
   double stored() const {

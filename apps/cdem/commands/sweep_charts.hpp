@@ -10,8 +10,8 @@ namespace cdem::app {
 
 struct SweptFigures {
   Settings set;
-  std::vector<Figure> figures;       // none: the run failed
-  std::vector<Parameter> parameters; // likewise
+  std::vector<Figure> figures = {};       // none: the run failed
+  std::vector<Parameter> parameters = {}; // likewise
 };
 
 std::string unit_of_parameter(const std::vector<SweptFigures>&, const std::string& name); // "": not known
