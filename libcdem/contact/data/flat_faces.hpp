@@ -15,6 +15,7 @@ struct FlatFace {
     double area = 0;            // m2, mean of the two triangles there, undeformed
   };
   std::vector<Edge> edges; // semi-edges along its outline
+  std::vector<int> beside; // faces of the block beyond them
 };
 
 struct FlatFaces {

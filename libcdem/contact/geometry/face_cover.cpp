@@ -3,7 +3,6 @@
 #include "libcdem/contact/geometry/edge_touch.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
-#include "libgeom/query/clip_polygon.hpp"
 
 #include <algorithm>
 
@@ -63,15 +62,12 @@ void each_contact(const Model& model, const State& state, const std::array<const
                   const Each& each) {
   for (int side = 0; side < 2; ++side) {
     const FlatFace& other = *faces[1 - side];
-    const geom::Vec3 on = place_of(model, state, other.outline[0]), normal = normal_of(model, state, other);
     for (const int t : faces[side]->triangles) {
       const ContactTriangle& triangle = model.surface.triangles[t];
       const Corners x = corners_of(model, state, triangle.nodes);
       for (int corner = 0; corner < 3; ++corner) {
-        const geom::Vec3 spring = weighted(x, spring_weights(corner));
-        const geom::Point place = axes.flat(spring);
-        // Nearer to the outline than to the face it presses on what is beside the face.
-        if (inside_outline(outlines[1 - side], place) > std::max(0.0, (on - spring).dot(normal)))
+        const geom::Point place = axes.flat(weighted(x, spring_weights(corner)));
+        if (inside_outline(outlines[1 - side], place) > 0)
           each(spring_area(triangle.area, other.usual_area), place);
       }
     }
@@ -94,10 +90,45 @@ void each_contact(const Model& model, const State& state, const std::array<const
   }
 }
 
-// Largest part of the mean by which weights differ from it.
+// Largest part of the usual weight by which others differ from it.
 constexpr double most_uneven = 0.9;
 
+// Contacts whose second moment, about a line through their mean place, is less than this part of that of the covered area stand
+// in that line.
+constexpr double least_spread = 0.01;
+
+// Second moment of a polygon over its area, m2, about the origin, which is its centroid.
+Eigen::Matrix2d spread_of(const geom::Polygon& polygon, double area) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const geom::Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()], c = a + b;
+    sum += cross(a, b) / 24 * (a * a.transpose() + b * b.transpose() + c * c.transpose());
+  }
+  return sum / area;
+}
+
+// m, of the first face below the second, at a place; below 0 they are apart.
+double depth_below(const Model& model, const State& state, const geom::Vec3& place, const FlatFace& g,
+                   const geom::Vec3& normal) {
+  return (place_of(model, state, g.outline[0]) - place).dot(normal);
+}
+
+double least_height(const Model& model, const FlatFace& face) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const int t : face.triangles)
+    least = std::min(least, model.surface.triangles[t].height);
+  return least;
+}
+
 } // namespace
+
+double FaceCover::weight(const geom::Vec3& place) const {
+  return usual * (1 + std::clamp(slope.dot(axes.flat(place) - mean), -most_uneven, most_uneven));
+}
+
+bool FaceCover::covers(const geom::Vec3& place) const {
+  return flat && inside_outline(covered, axes.flat(place)) > 0;
+}
 
 FlatFaces flat_faces(const Model& model) {
   const ContactSurface& s = model.surface;
@@ -140,8 +171,11 @@ FlatFaces flat_faces(const Model& model) {
       for (int end = 0; end < 2; ++end)
         own.ends[end] = edge->nodes[end] - block.node_begin < vertices;
       own.area = 0.5 * (s.triangles[edge->triangles[0]].area + s.triangles[edge->triangles[1]].area);
-      for (const int t : edge->triangles)
-        faces.all[faces.of_triangle[t]].edges.push_back(own);
+      for (int side = 0; side < 2; ++side) {
+        FlatFace& face = faces.all[faces.of_triangle[edge->triangles[side]]];
+        face.edges.push_back(own);
+        face.beside.push_back(faces.of_triangle[edge->triangles[1 - side]]);
+      }
     }
     for (int f = first; f < first + count; ++f) {
       FlatFace& face = faces.all[f];
@@ -152,10 +186,14 @@ FlatFaces flat_faces(const Model& model) {
   return faces;
 }
 
+bool lie_on_each_other(const geom::Vec3& normal, const geom::Vec3& other) {
+  return normal.dot(other) < 0 && normal.cross(other).norm() <= clear_of_faces;
+}
+
 FaceCover cover_of(const Model& model, const State& state, const FlatFace& f, const FlatFace& g) {
   FaceCover cover;
   const geom::Vec3 normal = normal_of(model, state, f), other = normal_of(model, state, g);
-  if (normal.dot(other) >= 0 || normal.cross(other).norm() > clear_of_faces)
+  if (!lie_on_each_other(normal, other))
     return cover;
   const geom::Vec3 origin = place_of(model, state, f.outline[0]),
                    along = place_of(model, state, f.outline[1]) - origin;
@@ -178,8 +216,12 @@ FaceCover cover_of(const Model& model, const State& state, const FlatFace& f, co
     return cover;
   const geom::Point centroid = first / area;
   cover.axes.origin = origin + centroid.x() * cover.axes.e1 + centroid.y() * cover.axes.e2;
-  for (geom::Polygon& outline : outlines)
-    for (geom::Point& x : outline)
+  // Else they are the far sides of the two blocks.
+  if (depth_below(model, state, cover.axes.origin, g, other) >
+      std::min(least_height(model, f), least_height(model, g)))
+    return cover;
+  for (geom::Polygon* outline : {&outlines[0], &outlines[1], &covered})
+    for (geom::Point& x : *outline)
       x -= centroid;
   Sums sums;
   const std::array<const FlatFace*, 2> faces{&f, &g};
@@ -188,17 +230,18 @@ FaceCover cover_of(const Model& model, const State& state, const FlatFace& f, co
   if (!(sums.one > 0))
     return cover;
   cover.flat = true;
-  cover.mean = 2 * area / sums.one;
-  // About the mean place of the contacts: weights that bring it to the centroid.
-  const geom::Point mean = sums.first / sums.one;
-  const Eigen::Matrix2d spread = sums.second / sums.one - mean * mean.transpose();
-  if (spread.determinant() <= 1e-6 * spread.trace() * spread.trace())
-    return cover; // they stand in a line
-  const geom::Point slope = -spread.inverse() * mean;
+  cover.usual = 2 * area / sums.one;
+  cover.mean = sums.first / sums.one;
+  // Weights that bring the mean place to the centroid.
+  const Eigen::Matrix2d spread = sums.second / sums.one - cover.mean * cover.mean.transpose(),
+                        over = spread_of(covered, area).inverse() * spread;
+  cover.covered = std::move(covered);
+  if (!(over.determinant() > least_spread * std::max(1.0, over.trace())))
+    return cover;
+  const geom::Point slope = -spread.inverse() * cover.mean;
   double uneven = 0;
-  each([&](double, const geom::Point& x) { uneven = std::max(uneven, std::abs(slope.dot(x - mean))); });
-  cover.slope = cover.mean * std::min(1.0, most_uneven / std::max(uneven, most_uneven)) * slope;
-  cover.mean -= cover.slope.dot(mean);
+  each([&](double, const geom::Point& x) { uneven = std::max(uneven, std::abs(slope.dot(x - cover.mean))); });
+  cover.slope = most_uneven / std::max(uneven, most_uneven) * slope;
   return cover;
 }
 

@@ -9,11 +9,13 @@
 //   sum of A_c w(x_c) = 2 |P|,   sum of A_c w(x_c) x_c = 2 |P| (centroid of P)
 //
 // give both faces together the pressure times the area of P, at its centroid. They change as P does, with no jump where a corner
-// leaves the other face. Where the faces cover each other wholly and have equal triangles, w is 1.
+// leaves the other face. Where the faces cover each other wholly and have equal triangles, w is 1. Every w lies within a
+// tenth and 1.9 of that at the mean place of the contacts.
 #pragma once
 
 #include "libcdem/contact/data/flat_faces.hpp"
 #include "libcdem/state/state.hpp"
+#include "libgeom/query/clip_polygon.hpp"
 #include "libgeom/query/flat_fan.hpp"
 
 namespace cdem {
@@ -31,13 +33,16 @@ inline double edge_area(double e, double f) {
 struct FaceCover {
   bool flat = false; // the two lie on each other
   geom::PlaneAxes axes{};
-  double mean = 1;                               // w at the origin of the axes
-  geom::Point slope = geom::Point::Zero();       // 1/m
-  double weight(const geom::Vec3& place) const { // w
-    return mean + slope.dot(axes.flat(place));
-  }
+  geom::Polygon covered;                        // P
+  double usual = 1;                             // w at the mean place of the contacts
+  geom::Point mean = geom::Point::Zero();       // m, this place
+  geom::Point slope = geom::Point::Zero();      // 1/m
+  double weight(const geom::Vec3& place) const; // w
+  bool covers(const geom::Vec3& place) const;
 };
 
+// Whether faces with these normals can do so: within 2.9 degrees.
+bool lie_on_each_other(const geom::Vec3& normal, const geom::Vec3& other);
 FaceCover cover_of(const Model&, const State&, const FlatFace&, const FlatFace&);
 
 } // namespace cdem

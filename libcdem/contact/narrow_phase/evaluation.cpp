@@ -312,15 +312,20 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   // A row sleeps as long as none of its springs has a contact, can begin one, or may have another target.
   const auto sleep = [&](int corner) { sleeps = std::min(sleeps, row.known_until[corner]); };
   for (int corner = 0; corner < 3; ++corner) {
-    const Nearest& found = nearest[corner];
     if (row.known_target[corner] < 0) {
       sleep(corner);
-      if (!found.inside())
+      if (!nearest[corner].inside())
         continue;
-    } else if (!found.inside()) {
+    } else if (!nearest[corner].inside()) {
       sleeps = 0;
       continue;
     }
+    const std::optional<Nearest> pressed = pressed_by(row.source, spring[corner], nearest[corner]);
+    if (!pressed) {
+      sleeps = 0;
+      continue;
+    }
+    const Nearest& found = *pressed;
     if (!found.in_tet && held_by_bonds(work_.fragments, work_.fragments.number_of_triangle[found.target]) &&
         !stands_within(model_, state_, work_.tets_beyond, found.target, found.place, spring[corner])) {
       sleeps = 0;
@@ -392,6 +397,30 @@ const FaceCover& Evaluation::cover(int f, int g) {
   if (known.faces != std::pair(first, second))
     known = {{first, second}, cover_of(model_, state_, work_.faces.all[first], work_.faces.all[second])};
   return known.cover;
+}
+
+std::optional<Nearest> Evaluation::pressed_by(int source, const geom::Vec3& spring, const Nearest& found) {
+  const int f = work_.faces.of_triangle[source], next = work_.faces.of_triangle[found.target];
+  if (f < 0 || next < 0)
+    return found;
+  const geom::Vec3 own = facet(source).normal;
+  if (lie_on_each_other(own, facet(found.target).normal))
+    return found;
+  const auto lies_on_it = [&](int beside) { return cover(beside, next).flat; };
+  const std::vector<int>& around = work_.faces.all[f].beside;
+  if (std::any_of(around.begin(), around.end(), lies_on_it))
+    return std::nullopt;
+  for (const int g : work_.faces.all[next].beside)
+    if (cover(f, g).covers(spring)) {
+      Nearest on;
+      for (const int t : work_.faces.all[g].triangles)
+        if (const Nearest here = nearest_of(t, spring, facet(t).x, facet(t).normal);
+            on.target < 0 || here.distance2 < on.distance2)
+          on = here;
+      if (on.height < 0)
+        return on;
+    }
+  return found;
 }
 
 bool Evaluation::renews_areas() const {

@@ -10,6 +10,8 @@
 #include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/state/state.hpp"
 
+#include <optional>
+
 namespace cdem {
 
 // Goes through rows of one kind, by ascending source. Adds their contacts, as they are after the step, with their forces
@@ -61,6 +63,9 @@ private:
   void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
   // Two flat faces, by their numbers.
   const FaceCover& cover(int f, int g);
+  // On which face a semi-spring presses whose nearest place on the surface of a block is `found`: on a flat one that its own face
+  // lies on, however near the next face is; on none where a face beside its own lies on the found one, and stands for it.
+  std::optional<Nearest> pressed_by(int source, const geom::Vec3& spring, const Nearest& found);
   // Sets stiffness and area of a contact. old: the same one before the step, null where there was none; of: m2, without
   // another face; on: m2, for which it stands on a flat face now; 0: on another.
   void set_stiffness(Contact&, const Contact* old, const ContactLaw&, double of, double on) const;
