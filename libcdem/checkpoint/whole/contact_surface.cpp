@@ -45,6 +45,8 @@ void check_surface(const Model& model) {
     all_below("surface.edges.nodes", edge.nodes, nodes);
     all_below("surface.edges.triangles", edge.triangles, triangles);
     below("surface.edges.corner", edge.corner, 3);
+    require(surface.triangles[edge.triangles[0]].block == surface.triangles[edge.triangles[1]].block,
+            "surface.edges.triangles", edge.triangles[1]);
   }
   require(std::is_sorted(surface.edges.begin(), surface.edges.end(),
                          [](const ContactEdge& a, const ContactEdge& b) { return a.id() < b.id(); }),
