@@ -1,6 +1,7 @@
 // Contact where edges and corners meet: they carry on over nodes, and blocks in rows do not feel those across them.
 #include "libcdem/contact/contact_forces.hpp"
 #include "libcdem/contact/geometry/edge_touch.hpp"
+#include "libcdem/results/energy.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
 #include "tests/libcdem/boxes.hpp"
@@ -126,6 +127,127 @@ TEST_CASE("contact: edges in line part along the direction in which their overla
     CAPTURE(lower[0], lower[1], upper[0], upper[1], shift[0], shift[1]);
     CHECK((nearest.stretch->normal + grows.normalized()).norm() < 1e-3);
   }
+}
+
+namespace {
+
+// Two bars that meet ridge on ridge, the longer one below. Seen along the ridges (y) the upper one is turned about its ridge by `roll`,
+// and its ridge lies `aside` and `deep` below the lower one. It is turned about the vertical by `yaw` and about x by `tilt`.
+struct TwoRidges {
+  TwoRidges(cdem::Element element, double roll, double yaw, double tilt, double aside, double deep)
+      : s(build({bar("lower", element, 1.4, {0, 0, 0}, rotation({0, 1, 0}, 45 * degree)),
+                 bar("upper", element, 1, {aside, 0, 2 * half - deep + apart},
+                     rotation({0, 0, 1}, yaw * degree) * rotation({1, 0, 0}, tilt * degree) *
+                         rotation({0, 1, 0}, (45 + roll) * degree))},
+                {{"lower", "upper", friction(0)}})) {
+    for (std::size_t i = 0; i < s.state.displacement.size(); ++i)
+      if (block_of(s.model, static_cast<int>(i)) == 1)
+        s.state.displacement[i].z -= apart;
+  }
+
+  cdem::ContactEdge ridge(int block) const {
+    const double up = block == 0 ? 1 : -1;
+    const cdem::ContactEdge* highest = nullptr;
+    double most = -1e300;
+    for (const cdem::ContactEdge& e : s.model.surface.edges)
+      if (s.model.surface.triangles[e.triangles[0]].block == block)
+        if (const double z = up * (s.model.node_position[e.nodes[0]] + s.model.node_position[e.nodes[1]]).z();
+            z > most) {
+          most = z;
+          highest = &e;
+        }
+    return *highest;
+  }
+  cdem::NearestOfEdges nearest() const {
+    return cdem::nearest_of_edges(s.model, s.state, ridge(1), ridge(0));
+  }
+  // Over half of the stiffness of a crossing and over the measure, m2.
+  double stored() const {
+    const auto& stretch = nearest().stretch;
+    return stretch ? stretch->share * stretch->depth * stretch->depth : 0;
+  }
+  void move(const std::vector<Vec3>& way, double part) {
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      s.state.displacement[i].x += part * way[i].x();
+      s.state.displacement[i].y += part * way[i].y();
+      s.state.displacement[i].z += part * way[i].z();
+    }
+  }
+
+  System s;
+
+private:
+  static constexpr double side = 0.4, half = side * 0.70710678118654752;
+  static constexpr double apart = 1; // m: they meet by their displacement
+
+  // place: of the middle of the lower side's ridge of the upper bar, from that of the lower bar.
+  static cdem::BodySpec bar(const char* name, cdem::Element element, double length, const Vec3& place,
+                            const Mat3& turn) {
+    const bool upper = place.z() > 0;
+    const Vec3 own = upper ? Vec3(0.5 * side, 0, -0.5 * side) : Vec3(0, 0, 0);
+    std::vector<Vec3> corners;
+    for (const double x : {-0.5, 0.5})
+      for (const double y : {-0.5, 0.5})
+        for (const double z : {-0.5, 0.5})
+          corners.push_back(turn * (Vec3(side * x, length * y, side * z) - own) + place -
+                            (upper ? Vec3(0, 0, half) : Vec3(0, 0, 0)));
+    geom::Assembly shape;
+    shape.blocks.push_back(geom::convex_hull(corners));
+    cdem::BodySpec spec = body(name, shape);
+    spec.element = element;
+    return spec;
+  }
+};
+
+} // namespace
+
+TEST_CASE("contact: nearly parallel edges press with the derivative of what they store", "[contact][edges]") {
+  // Over the measure, which a contact keeps. The bars do not move along their ridges: these would reach further past each other.
+  const double roll = GENERATE(0.0, 20.0, 38.0), yaw = GENERATE(0.0, 0.02, 1.0),
+               tilt = GENERATE(0.0, 0.005, 0.1), aside = GENERATE(0.0, 3e-5, -6e-5);
+  CAPTURE(roll, yaw, tilt, aside);
+  TwoRidges bars(cdem::Element::rigid, roll, yaw, tilt, aside, 1e-4);
+  System& s = bars.s;
+  const auto nearest = bars.nearest();
+  if (!nearest.stretch) // they pass beside each other
+    return;
+  const cdem::EdgeStretch& stretch = *nearest.stretch;
+  const double force = 2 * stretch.share * stretch.depth; // over the same as what is stored
+  for (const auto& [shift, spin] :
+       {std::pair(Vec3(0, 0, 1), Vec3(0, 0, 0)), std::pair(Vec3(1, 0, 0), Vec3(0, 0, 0)),
+        std::pair(Vec3(0, 0, 0), Vec3(0, 0, 1)), std::pair(Vec3(0, 0, 0), Vec3(1, 0, 0))}) {
+    std::vector<Vec3> way(s.state.displacement.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < way.size(); ++i)
+      if (block_of(s.model, static_cast<int>(i)) == 1)
+        way[i] = shift + spin.cross(cdem::place_of(s.model, s.state, static_cast<int>(i)) - stretch.place);
+    const double work = force * stretch.normal.dot(shift + stretch.lever * spin), small = 1e-9;
+    bars.move(way, small);
+    const double after = bars.stored();
+    bars.move(way, -2 * small);
+    const double before = bars.stored();
+    bars.move(way, small);
+    CHECK((after - before) / (2 * small) == Approx(-work).epsilon(2e-3).margin(2e-3 * force));
+  }
+}
+
+TEST_CASE("contact: what nearly parallel edges store does not jump as they turn past each other",
+          "[contact][edges]") {
+  const double roll = GENERATE(0.0, 20.0, 38.0), yaw = GENERATE(0.0, 0.05, -0.5);
+  const bool tilts = GENERATE(false, true);
+  CAPTURE(roll, yaw, tilts);
+  const double aside = 4e-4, deep = 1e-3;
+  double before = -1, most = 0, jump = 0;
+  for (int i = -400; i <= 400; ++i) {
+    const double angle = 2.5e-4 * i; // degrees
+    TwoRidges bars(cdem::Element::rigid, roll, yaw + (tilts ? 0 : angle), tilts ? angle : 0, aside, deep);
+    const double stored = bars.stored();
+    if (before >= 0)
+      jump = std::max(jump, std::abs(stored - before));
+    before = stored;
+    most = std::max(most, stored);
+  }
+  REQUIRE(most > 0);
+  CHECK(jump < 0.02 * most);
 }
 
 TEST_CASE("contact: an edge pressed on another carries on over the nodes of both", "[contact][edges]") {

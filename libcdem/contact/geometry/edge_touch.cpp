@@ -57,13 +57,12 @@ struct LineLoad {
 };
 
 // The overlap of two nearly parallel edges, cut at right angles to the first: at each place x along it the overlap of two
-// wedges. Where their tips meet in the middle of both fans, twice `scale` times its area is the square of the depth.
+// wedges. Its energy there is twice the area.
 class Overlap {
 public:
   Overlap(const Wedge& e, const Wedge& f, const geom::Vec3& apart, const geom::Vec3& turns,
           const geom::Vec3& along, const geom::Vec3& between)
-      : e_(e), f_(f), apart_(apart), turns_(turns), along_(along), between_(between),
-        scale_(1 / chord(between).across.dot(between)) {
+      : e_(e), f_(f), apart_(apart), turns_(turns), along_(along), between_(between) {
     for (int i = 0; i < 2; ++i)
       for (const auto& [slope, at_0] :
            {std::pair(turns.dot(f.outward[i]), apart.dot(f.outward[i])), // the tip of e passes a face of f
@@ -76,9 +75,12 @@ public:
   LineLoad load_at(double x) const {
     const geom::Vec3 way = apart_ + x * turns_;
     const Chord c = chord(way);
-    const geom::Vec3 grows = scale_ * c.across; // half the derivative of depth^2
+    const geom::Vec3& grows = c.across; // the derivative of the area
     return {way.dot(grows), 2 * grows, 2 * x * grows, 2 * c.middle.cross(grows).dot(along_)};
   }
+
+  // Square of the depth over twice the area where tips meet in the middle of both fans.
+  double depth_measure() const { return 1 / chord(between_).across.dot(between_); }
 
   // Over a stretch. Between two breaks the overlap is quadratic: Simpson's rule is exact.
   LineLoad load(double from, double to) const {
@@ -109,6 +111,22 @@ public:
       }
     });
     return most > 0 && std::abs(at - near) < within ? std::optional(at) : std::nullopt;
+  }
+
+  // Where the stretch of a length begins that holds the most: the overlap is as large at its end. It grows up to its peak and
+  // shrinks from there (Brunn and Minkowski).
+  double fullest(double length, double peak) const {
+    const auto more_behind = [&](double x) { return load_at(x).energy - load_at(x + length).energy; };
+    double begin = peak - length, end = peak;
+    for (int i = 0; i < n_breaks_; ++i)
+      for (const double x : {breaks_[i], breaks_[i] - length})
+        if (x > begin && x < end)
+          (more_behind(x) < 0 ? begin : end) = x;
+    // In between it is quadratic.
+    const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin), a = more_behind(begin),
+                 b = more_behind(middle), c = more_behind(end), slope = c - a, bends = 2 * (a - 2 * b + c);
+    const double root = std::sqrt(std::max(0.0, slope * slope - 4 * bends * b));
+    return std::clamp(slope + root > 0 ? middle - half * 4 * b / (slope + root) : middle, begin, end);
   }
 
 private:
@@ -148,16 +166,16 @@ private:
 
   Wedge e_, f_;
   geom::Vec3 apart_, turns_, along_, between_;
-  double scale_;
   std::array<double, 4> breaks_{}; // m along e, ascending
   int n_breaks_ = 0;
 };
 
 // What two nearly parallel edges store where they run beside each other, over half of the stiffness of their crossing.
-// The square of the depth where it is the largest, times the part of the overlap that is theirs: over that within half of the
-// edge's length from there. So parallel edges bear by the length that they have in common; lines that cross bear as much at any angle;
-// and the pairs of two straight chains bear together as one crossing does, over the nodes.
-constexpr double without_end = 1000; // times the length: what is deepest so far away does not matter
+// The square of the depth where it is the largest, times the part of the overlap that is theirs: over that of the stretch of an
+// edge's length that holds the most. So parallel edges bear by the length that they have in common; lines that cross bear as much at any
+// angle; and the pairs of two straight chains bear together as one crossing does, over the nodes. As both are the largest of their kind,
+// neither jumps, and their derivatives are those of a place and a stretch that stay.
+constexpr double without_end = 1e4; // times the length: what is deepest so far away does not matter
 
 LineLoad load_of(const Overlap& overlap, double from, double to, double length) {
   const LineLoad own = overlap.load(from, to);
@@ -167,8 +185,8 @@ LineLoad load_of(const Overlap& overlap, double from, double to, double length) 
     load.add(1 / length, own);
     return load;
   }
-  const LineLoad there = overlap.load_at(*deepest),
-                 around = overlap.load(*deepest - 0.5 * length, *deepest + 0.5 * length);
+  const double begin = overlap.fullest(length, *deepest);
+  const LineLoad there = overlap.load_at(*deepest), around = overlap.load(begin, begin + length);
   const double part = own.energy / around.energy;
   load.add(there.energy / around.energy, own);
   load.add(part, there);
@@ -176,10 +194,6 @@ LineLoad load_of(const Overlap& overlap, double from, double to, double length) 
   load.energy = part * there.energy;
   return load;
 }
-
-// Where tips pass each other sideways an overlap begins with its full force, and the spring that stores as much has no bound.
-// There it is at most so much stiffer than a crossing: it begins without force.
-constexpr double most_share = 10;
 
 std::optional<EdgeStretch> stretch_of(const std::array<geom::Vec3, 2>& a, const std::array<geom::Vec3, 2>& b,
                                       const Wedge& e, const Wedge& f, const geom::Vec3& along,
@@ -189,7 +203,8 @@ std::optional<EdgeStretch> stretch_of(const std::array<geom::Vec3, 2>& a, const 
   if (!(from < to))
     return std::nullopt;
   const geom::Vec3 turns = (b[1] - b[0]) / (b1 - b0) - along, apart = b[0] - a[0] - b0 * along - b0 * turns;
-  const LineLoad load = load_of(Overlap(e, f, apart, turns, along, between), from, to, length);
+  const Overlap overlap(e, f, apart, turns, along, between);
+  const LineLoad load = load_of(overlap, from, to, length);
   const double force2 = load.force.squaredNorm();
   if (!(load.energy > 0 && force2 > 0))
     return std::nullopt;
@@ -198,7 +213,8 @@ std::optional<EdgeStretch> stretch_of(const std::array<geom::Vec3, 2>& a, const 
   EdgeStretch stretch;
   stretch.normal = load.force / force;
   stretch.depth = 2 * load.energy / force;
-  stretch.share = std::min(most_share, 0.25 * force2 / load.energy);
+  stretch.share = 0.25 * force2 / load.energy;
+  stretch.measure = overlap.depth_measure();
   stretch.place = a[0] + x * along + load.roll / force2 * load.force.cross(along);
   stretch.lever = along.cross(load.moment - x * load.force).dot(stretch.normal) / force;
   return stretch;

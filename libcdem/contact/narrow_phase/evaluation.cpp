@@ -431,9 +431,22 @@ bool Evaluation::renews_areas() const {
 // It keeps the stiffness with which it began: under another triangle of the target its energy would jump.
 void Evaluation::set_stiffness(Contact& c, const Contact* old, const ContactLaw& law, double of,
                                double on) const {
-  const double before = old && old->stiffness > 0 ? old->stiffness : law.kn;
-  c.area = on > 0 ? on : old ? old->area : 0;
-  c.stiffness = on > 0 ? before * on / (old && old->area > 0 ? old->area : of) : before;
+  c.area = old ? old->area : on;
+  c.stiffness = old && old->stiffness > 0 ? old->stiffness : on > 0 ? law.kn * on / of : law.kn;
+}
+
+void Evaluation::renew_area(Contact& c, double of, double on, double& friction) const {
+  const double grows = on / (c.area > 0 ? c.area : of), root = std::sqrt(grows),
+               pressed = c.effective_penetration(),
+               stores_more = 0.5 * (grows - 1) * c.stiffness * pressed * pressed;
+  c.area = on;
+  c.stiffness *= grows;
+  c.shear *= root;
+  c.damping *= root;
+  if (stores_more <= friction)
+    friction -= stores_more;
+  else
+    c.reference_penetration = c.depth - pressed / root;
 }
 
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
@@ -461,15 +474,15 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
       0.5 * work_.step *
       (spin(x, velocities(from.nodes), motion.normal) + spin(y.x, velocities(to.nodes), motion.normal));
   const Law& between = law_between({source, source}, {nearest.target, nearest.target});
-  ContactLaw law = spring_law(model_, *between.joint, between.tan_friction, from, to);
+  const ContactLaw law = spring_law(model_, *between.joint, between.tan_friction, from, to);
   double area = 0;
   const int f = work_.faces.of_triangle[source], g = work_.faces.of_triangle[nearest.target];
   if (f >= 0 && g >= 0 && (!old || renews_areas()))
     if (const FaceCover& on = cover(f, g); on.flat)
       area = spring_area(from.area, work_.faces.all[g].usual_area) * on.weight(spring);
-  set_stiffness(c, old, law, spring_area(from.area, to.area), area);
-  law = as_stiff_as(c, law);
-  finish(c, old, motion, arms, law, from, to);
+  const double of = spring_area(from.area, to.area);
+  set_stiffness(c, old, law, of, area);
+  finish(c, old, motion, arms, as_stiff_as(c, law), from, to, of, old ? area : 0);
   return true;
 }
 

@@ -67,8 +67,11 @@ private:
   // lies on, however near the next face is; on none where a face beside its own lies on the found one, and stands for it.
   std::optional<Nearest> pressed_by(int source, const geom::Vec3& spring, const Nearest& found);
   // Sets stiffness and area of a contact. old: the same one before the step, null where there was none; of: m2, without
-  // another face; on: m2, for which it stands on a flat face now; 0: on another.
+  // another face; on: m2, for which a new one stands on a flat face; 0: on another.
   void set_stiffness(Contact&, const Contact* old, const ContactLaw&, double of, double on) const;
+  // Of one that stands on a flat face for another area now. What it stores more friction pays, J, as far as it took that much;
+  // else the contact stores as much as before.
+  void renew_area(Contact&, double of, double on, double& friction) const;
   bool renews_areas() const; // in this step, of contacts that there are
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
   double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
@@ -101,9 +104,9 @@ private:
   void set_approach(const Contact&, const ContactLaw&, const BlockPair&, const ContactArms&,
                     const geom::Vec3& velocity, const ContactTriangle& from, const ContactTriangle& to,
                     ContactMotion&) const;
-  // old: the contact before the step, null where there was none.
+  // old: the contact before the step, null where there was none; of, on: as of renew_area, 0: the area stays.
   void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
-              const ContactTriangle& from, const ContactTriangle& to);
+              const ContactTriangle& from, const ContactTriangle& to, double of, double on);
 
   // Where a triangle is now: of a few that follow each other it is worked out once.
   const Facet& facet(int triangle);

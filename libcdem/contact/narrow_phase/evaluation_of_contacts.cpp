@@ -100,7 +100,8 @@ void Evaluation::go_on_if_opened(Contact& c) const {
 }
 
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
-                        const ContactLaw& law, const ContactTriangle& from, const ContactTriangle& to) {
+                        const ContactLaw& law, const ContactTriangle& from, const ContactTriangle& to,
+                        double of, double on) {
   const geom::Vec3 velocity = velocity_past(state_, arms);
   motion.slid = work_.step * velocity;
   motion.step = work_.step;
@@ -110,10 +111,10 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   if (own && work_.step == 0 && old->target == c.target) {
     c = *old; // nothing moved
   } else {
+    // Under another stiffness it stores as much.
+    const double grows = own && old->stiffness > 0 ? std::sqrt(c.stiffness / old->stiffness) : 1;
     c.normal = old ? old->normal : motion.normal;
     if (old) {
-      // Under another stiffness it stores as much.
-      const double grows = own && old->stiffness > 0 ? std::sqrt(c.stiffness / old->stiffness) : 1;
       c.shear = grows * old->shear;
       c.damping = grows * old->damping;
       c.at_rest = old->at_rest;
@@ -124,6 +125,11 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     c.depth = own ? old->depth : 0;
     c.reference_penetration =
         own ? next_reference_penetration(*old, motion) : first_reference_penetration(motion);
+    if (motion.along_stretch)
+      c.reference_penetration /= grows;
+    else if (grows != 1) // a crossing that has turned into a stretch
+      c.reference_penetration =
+          motion.depth - std::max(0.0, old->effective_penetration() / grows - motion.opened());
     if (old && !own)
       force.friction -= take_over(c, *old, law, motion);
     else if (old && old->target != c.target)
@@ -139,10 +145,6 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     }
     const ContactLoss loss = advance(c, law, motion);
     force.friction += loss.friction;
-    // Less than it would store if it had been as stiff before: the work of its force, by the trapezoidal rule.
-    if (own && c.area != old->area)
-      force.friction -=
-          0.5 * (c.stiffness - old->stiffness) * old->effective_penetration() * c.effective_penetration();
     force.damping = loss.damping;
   }
   force.arms = arms;
@@ -152,6 +154,8 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   force.shear = c.shear;
   force.moment = motion.lever * force.normal;
   force.stiffness = law.kn * (1 + part_damped(c, law)) + law.ks;
+  if (on > 0)
+    renew_area(c, of, on, force.friction);
   out_.contacts.push_back(c);
   out_.forces.push_back(force);
   // Not what was found so deep.

@@ -18,6 +18,10 @@ struct Hindrance {
   double by_angle = 0, last_end = 0, other_rules = 0;
 };
 
+// Where tips pass each other sideways an overlap begins with its full force, and the spring that stores as much has no bound.
+// There it is at most so much stiffer than a crossing: it begins without force.
+constexpr double most_share = 10;
+
 double sine_between(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f) {
   const auto along = [&](const ContactEdge& edge) -> geom::Vec3 {
     return (place_of(model, state, edge.nodes[1]) - place_of(model, state, edge.nodes[0])).normalized();
@@ -225,14 +229,18 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
                                                   place_of(model_, state_, e.nodes[0])));
     return 0.;
   };
+  double on = 0; // m2, for which it stands now
   if (const auto& stretch = nearest.stretch) {
     motion.lever = stretch->lever;
-    motion.along_stretch = old != nullptr;
+    motion.along_stretch = old && old->area > 0;
     if (!old && !may_begin && !lines_.carry_together(source, target))
       return;
-    c.stiffness = stretch->share * own.kn; // of the stretch that they have now
+    c.area = old && old->area > 0 ? old->area : stretch->measure * of;
+    c.stiffness =
+        std::min(most_share, c.area / of * stretch->share) * own.kn; // of the stretch that they have now
   } else if (old) {
-    set_stiffness(c, old, own, of, renews_areas() ? on_faces() : 0);
+    set_stiffness(c, old, own, of, 0);
+    on = renews_areas() ? on_faces() : 0;
   } else {
     set_stiffness(c, nullptr, own, of, on_faces());
     beyond = lines_.left_behind(source, target, touch.normal);
@@ -240,7 +248,7 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
     if (!old && !may_begin)
       return;
   }
-  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest), as_stiff_as(c, own), from, to);
+  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest), as_stiff_as(c, own), from, to, of, on);
 }
 
 double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,
