@@ -50,7 +50,9 @@ struct BondWork {
   std::vector<SpringStrength> strength; // per interface
   std::vector<double> damping; // s, Joint::stiffness_damping per interface; empty where no joint has any
   double contact_damping = 0;  // s, the least of contacts (bond/contact_damping.hpp)
-  double damping_step = 0;     // s, of the step in time; 0: stiffness damping does not act
+  // 1/s, of the means that the friction of contacts follows, per interface; 0 where neither block deforms
+  std::vector<double> rest_rate;
+  double damping_step = 0; // s, of the step in time; 0: stiffness damping does not act
   // N, of damping in the step before, in undeformed directions (n_points; empty without interfaces that turn)
   std::vector<geom::Vec3> viscous;
   // Both empty in a model without softening joints.

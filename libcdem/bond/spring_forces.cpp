@@ -63,7 +63,7 @@ void softening_spring(const BondPoint& point, State& state, BondWork& work, std:
 }
 
 // A spring whose joint has a law, broken or never bonded; broke: just now. What it loses is the work of its own traction
-// by the trapezoidal rule less the change of what it stores. along: N, of its dashpot, along the normal.
+// by the trapezoidal rule less the change of what it stores. along: N, what friction feels beside its normal force.
 void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64_t p,
                 const geom::Vec3& jump_now, bool broke, double along, SpringSums& sums) {
   const InterfaceLaw& own = work.laws[point.interface];
@@ -95,8 +95,8 @@ void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64
 }
 
 // One spring at the relative displacement j of its two sides, in undeformed directions. special: some joint of the
-// model softens or has a law; a model of plain brittle bonds pays nothing for the others. along: N, what the dashpot of a
-// contact adds to its normal force.
+// model softens or has a law; a model of plain brittle bonds pays nothing for the others. along: N, what friction feels beside
+// the normal force of a contact.
 template <bool special>
 CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interface, State& state,
                                BondWork& work, std::int64_t p, const geom::Vec3& j, SpringSums& sums,
@@ -172,7 +172,7 @@ struct SpringsOfChunk {
   State& state;
   BondWork& work;
   SpringSums& sums;
-  bool breaking, acts_otherwise, damped;
+  bool breaking, acts_otherwise, damped, advances; // advances: the means of contacts, in time
 };
 
 // Relative displacement at which the contact in a spring carries nothing, m.
@@ -189,14 +189,24 @@ double damping_of_contact(const BondWork& work, int interface) {
   return std::max(damping_of_joint(work, interface), work.contact_damping);
 }
 
-// N, what the dashpot of a spring that is a contact adds to its normal force. rate: m/s, of its stretch.
+// Part of the time of means that passes in a step.
+double passed_of_means(const BondWork& work, int interface) {
+  return std::min(1.0, work.damping_step * work.rest_rate[interface]);
+}
+
+// N, of a spring that is a contact: what its dashpot adds to its normal force, and what friction feels beside that force.
+struct BesideNormal {
+  double viscous = 0, felt = 0;
+};
+
+// rate: m/s, of its stretch; zero without dashpots. Advances the means that friction follows.
 template <bool special>
-double viscous_normal(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3& rate,
-                      const geom::Vec3& stretch) {
+BesideNormal beside_normal(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3& rate,
+                           const geom::Vec3& stretch) {
   const BondPoint& point = c.model.points[p];
   const BondWork& work = c.work;
   if (is_intact(c.state.bond_mode[p]))
-    return 0;
+    return {};
   const Triple<double> n = triple(point.normal);
   const double open = dot(triple(stretch), n);
   double normal_force = point.kn_area * open;
@@ -206,16 +216,19 @@ double viscous_normal(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3&
       normal_force =
           -point.area * joint_pressure(*own.law, own.spring, open, c.state.joint_history[p].parted);
     }
-  return viscous_along<double>(damping_of_contact(work, point.interface), point.kn_area, dot(triple(rate), n),
-                               normal_force);
+  const double viscous = c.damped ? viscous_along<double>(damping_of_contact(work, point.interface),
+                                                          point.kn_area, dot(triple(rate), n), normal_force)
+                                  : 0;
+  return {viscous, felt_beside<double>(normal_force, viscous, passed_of_means(work, point.interface),
+                                       c.state.usual_force[p], c.state.rested[p])};
 }
 
 // Stiffness damping of a spring that holds or presses, beside its own force, N, in undeformed directions. A damaged bond is
 // a bond, and a contact with its share D. rate: m/s, of its stretch; j: m, its relative displacement; offset_before:
-// contact_offset before this step; along: viscous_normal before this step.
+// contact_offset before this step; beside: beside_normal before this step.
 template <bool special>
 geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Vec3& rate, const geom::Vec3& j,
-                         const geom::Vec3& offset_before, double along) {
+                         const geom::Vec3& offset_before, const BesideNormal& beside) {
   const BondPoint& point = c.model.points[p];
   const BondWork& work = c.work;
   const double of_joint = damping_of_joint(work, point.interface),
@@ -230,10 +243,10 @@ geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Ve
       const InterfaceLaw& own = work.laws[point.interface];
       const geom::Vec3& force = work.spring_force[p];
       const double normal_force = force.dot(point.normal),
-                   pressure = std::max(0.0, -(normal_force + along) / point.area),
+                   pressure = std::max(0.0, -(normal_force + beside.felt) / point.area),
                    strength = joint_strength(*own.law, own.spring, pressure, c.state.joint_history[p].path),
                    shear = (force - normal_force * point.normal).norm();
-      return viscous(along, std::max(0.0, point.area * strength - shear),
+      return viscous(beside.viscous, std::max(0.0, point.area * strength - shear),
                      normal_force < 0 && c.state.bond_offset[p] == offset_before);
     }
   const auto of_bond = [&](double share) {
@@ -246,9 +259,10 @@ geom::Vec3 viscous_force(const SpringsOfChunk& c, std::int64_t p, const geom::Ve
   const SpringStretch<double> parts = parts_of(triple(geom::Vec3(j - offset_before)), n);
   const double tan = work.strength[point.interface].tan_friction,
                length = root(dot(parts.shear, parts.shear)), normal_force = kn * parts.open;
-  if (broken < 1) // the friction of its contact is that of its softening law
-    along = viscous_along<double>(beta, kn, dot(triple(rate), n), normal_force);
-  const double in_friction = broken < 1 ? 0 : along;
+  // The friction of the contact of a bond that softens is that of its law.
+  const double along = broken < 1 ? viscous_along<double>(beta, kn, dot(triple(rate), n), normal_force)
+                                  : beside.viscous,
+               in_friction = broken < 1 ? 0 : beside.felt;
   const geom::Vec3 of_contact = viscous(
       along, friction_left<double>(ks, tan, normal_force + in_friction, length),
       normal_force < 0 && !(held_by_contact<double>(kn, ks, tan, parts.open, length, in_friction).shear < 1));
@@ -264,7 +278,10 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   BondWork& work = c.work;
   const Node* const u = state.displacement.data();
   if (interface.frame < 0) {
-    update_spring<special>(point, interface, state, work, p, jump_at(point, u), c.sums, c.breaking, 0);
+    const geom::Vec3 j = jump_at(point, u), still = geom::Vec3::Zero();
+    const double felt =
+        c.advances ? beside_normal<special>(c, p, still, j - contact_offset(state, p)).felt : 0;
+    update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, felt);
     if (c.acts_otherwise)
       work.acting_force[p] = work.spring_force[p] + water_force(state, point, p);
     return;
@@ -281,14 +298,15 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
                    j = vec(turned_back(turn, triple(jump_at(c.model, p, u))));
   const geom::Vec3 rate = c.damped ? vec(turned_back(turn, triple(jump_at(point, state.velocity.data()))))
                                    : geom::Vec3(geom::Vec3::Zero());
-  const double along = c.damped ? viscous_normal<special>(c, p, rate, j - offset_before) : 0;
-  update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, along);
+  const BesideNormal beside =
+      c.advances ? beside_normal<special>(c, p, rate, j - offset_before) : BesideNormal();
+  update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, beside.felt);
   geom::Vec3 acting = work.spring_force[p] + water_force(state, point, p);
   if (c.damped) {
     // Damping takes in a step the mean of its forces before and after it, times the motion.
     geom::Vec3& viscous = work.viscous[p];
     const geom::Vec3 before = viscous;
-    viscous = viscous_force<special>(c, p, rate, j, offset_before, along);
+    viscous = viscous_force<special>(c, p, rate, j, offset_before, beside);
     acting += viscous;
     c.sums.damping += (0.5 * work.damping_step) * dot(triple(before + viscous), triple(rate));
   }
@@ -350,6 +368,13 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
                        {c.model.points[range.begin].interface, c.model.points[range.end - 1].interface + 1},
                        state.displacement.data());
   const bool plain = state.water_pressure.empty() && !(c.damped && !c.work.damping.empty());
+  const ContactsInTime contacts{c.work.rest_rate.data(),
+                                state.usual_force.data(),
+                                state.rested.data(),
+                                c.work.contact_damping,
+                                c.work.damping_step,
+                                state.velocity.data(),
+                                c.damped ? c.work.viscous.data() : nullptr};
   ReadAhead ahead = reads_of(c, chunk + 1);
   ahead.spread(batches.first[chunk + 1] - batches.first[chunk]);
   std::int64_t p = range.begin;
@@ -372,12 +397,8 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
       springs.force = c.work.spring_force.data() + p;
       springs.acting = c.acts_otherwise ? c.work.acting_force.data() + p : nullptr;
       springs.breaking = c.breaking;
-      if (c.damped && batch.turns) {
-        springs.contact_damping = c.work.contact_damping;
-        springs.damping_step = c.work.damping_step;
-        springs.velocity = state.velocity.data();
-        springs.viscous = c.work.viscous.data() + p;
-      }
+      springs.contacts = c.advances ? &contacts : nullptr;
+      springs.first = p;
       SpringSpent spent{c.sums.friction, c.sums.damping};
       one_by_one = plain_springs(batches, batch, springs, spent);
       c.sums.friction = spent.friction;
@@ -420,7 +441,8 @@ void spring_forces(const Model& model, State& state, BondWork& work, std::int64_
                                sums,
                                breaking,
                                !work.acting_force.empty(),
-                               work.damping_step > 0 && !work.viscous.empty()};
+                               work.damping_step > 0 && !work.viscous.empty(),
+                               work.damping_step > 0 && !state.rested.empty()};
   if (state.bond_damage.empty() && state.joint_history.empty())
     forces_of_springs<false>(chunk, springs);
   else
@@ -429,7 +451,7 @@ void spring_forces(const Model& model, State& state, BondWork& work, std::int64_
 
 double catch_up(const Model& model, State& state, BondWork& work, const Interface& interface) {
   SpringSums sums;
-  const SpringsOfChunk springs{model, state, work, sums, false, !work.acting_force.empty(), false};
+  const SpringsOfChunk springs{model, state, work, sums, false, !work.acting_force.empty(), false, false};
   const bool special = !state.bond_damage.empty() || !state.joint_history.empty();
   const geom::Mat3 rotation = interface_rotation(model, state.displacement.data(), interface);
   for (int p = interface.point_begin; p < interface.point_end; ++p)
@@ -480,6 +502,28 @@ void start_spring_forces(const Model& model, const State& state, BondWork& work)
     work.spring_force[p] = model.points[p].area * traction(model, state, p);
   for (std::size_t p = 0; p < work.stretch.size(); ++p)
     work.stretch[p] = local_jump(model, state.displacement, static_cast<int>(p)) - state.bond_offset[p];
+}
+
+bool lacks_means(const State& state) {
+  return state.rested.empty() && !std::all_of(state.bond_mode.begin(), state.bond_mode.end(),
+                                              [](std::uint8_t mode) { return is_intact(mode); });
+}
+
+void make_room_for_means(State& state) {
+  state.usual_force.assign(state.bond_mode.size(), 0.0);
+  state.rested.assign(state.bond_mode.size(), 0.0);
+}
+
+void rest_contacts(const Model& model, State& state) {
+  if (lacks_means(state))
+    make_room_for_means(state);
+  for (std::size_t p = 0; p < model.points.size(); ++p)
+    if (!is_intact(state.bond_mode[p])) {
+      const BondPoint& point = model.points[p];
+      state.usual_force[p] =
+          std::max(0.0, -point.area * traction(model, state, static_cast<int>(p)).dot(point.normal));
+      state.rested[p] = 1;
+    }
 }
 
 void add_spring_row_sums(const Model& model, std::vector<double>& sums) {

@@ -8,7 +8,8 @@
 namespace cdem {
 
 // One chunk of springs. Reads displacement; writes spring_force, acting_force and stretch of BondWork, the sums and, where a spring breaks,
-// slips, opens or softens, bond_mode, bond_offset, bond_damage, bond_slip and joint_history.
+// slips, opens or softens, bond_mode, bond_offset, bond_damage, bond_slip and joint_history; in a step in time, of contacts,
+// usual_force and rested.
 void spring_forces(const Model&, State&, BondWork&, std::int64_t chunk, bool breaking);
 
 // The springs of one interface without a whole bond where its nodes are now. Returns what slip has taken since they were
@@ -23,6 +24,13 @@ void add_bond_reads(const Model&, const BondWork&, std::int64_t chunk, ReadAhead
 
 // Forces of the present state without any breaking or slip. The energy losses of the first step are counted from them.
 void start_spring_forces(const Model&, const State&, BondWork&);
+
+// Some spring is a contact, and there is no room for usual_force and rested.
+bool lacks_means(const State&);
+void make_room_for_means(State&);
+
+// Writes usual_force and rested of contacts that have been at rest for long, as after a relaxation.
+void rest_contacts(const Model&, State&);
 
 // Position of side b of a spring less that of side a, in space, m (bond/interface_frame.hpp: in undeformed directions):
 // the relative displacement plus the undeformed distance of the two.

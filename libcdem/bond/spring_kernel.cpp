@@ -3,6 +3,8 @@
 #include "libcdem/bond/interface_turn.hpp"
 #include "libcdem/joint/spring_law.hpp"
 
+#include <algorithm>
+
 namespace cdem {
 namespace {
 
@@ -148,15 +150,31 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   HeldByContact<Oct> held{one, one};
   Triples viscous{};
   if (simd::any(contact)) {
+    const ContactsInTime in_time = springs.contacts ? *springs.contacts : ContactsInTime();
+    geom::Vec3* const dashpots = in_time.viscous && batch.turns ? in_time.viscous + springs.first : nullptr;
     Triples rate{};
     Oct along{};
-    if (springs.viscous) {
-      rate = turned_back(rotation, jumps_of(all, batch, springs.velocity));
+    if (dashpots) {
+      rate = turned_back(rotation, jumps_of(all, batch, in_time.velocity));
       const Oct of_contact =
-          viscous_along<Oct>(none + springs.contact_damping, kn, dot(rate, n), normal_force);
+          viscous_along<Oct>(none + in_time.contact_damping, kn, dot(rate, n), normal_force);
       along = contact & ~leaves ? of_contact : none;
     }
-    held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2), along);
+    Oct felt = along;
+    if (springs.contacts) {
+      double *const usual_force = in_time.usual_force + springs.first, *const rested_for =
+                                                                           in_time.rested + springs.first;
+      Oct passed;
+      for (int lane = 0; lane < lanes; ++lane)
+        passed[lane] = std::min(1.0, in_time.damping_step * in_time.rest_rate[batch.interface[lane]]);
+      const Oct usual_before = simd::load_wide<Oct>(usual_force),
+                rested_before = simd::load_wide<Oct>(rested_for);
+      Oct usual = usual_before, rested = rested_before;
+      felt = felt_beside<Oct>(normal_force, along, passed, usual, rested);
+      simd::store_wide<Oct>(usual_force, contact ? usual : usual_before);
+      simd::store_wide<Oct>(rested_for, contact ? rested : rested_before);
+    }
+    held = held_by_contact<Oct>(kn, ks, tan, stretch.open, root(length2), felt);
     held = {contact ? held.normal : one, contact ? held.shear : one};
     const Mask slips = simd::below<Oct>(held.shear, one);
     if (simd::any(slips & ~leaves)) {
@@ -167,18 +185,18 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
           spent.friction += lost[lane];
       store_triples(springs.offset, offset + slip);
     }
-    if (springs.viscous) {
+    if (dashpots) {
       const Mask here = contact & ~leaves, press = here & simd::below<Oct>(normal_force, none);
-      const Triples viscous_before = load_triples(springs.viscous),
+      const Triples viscous_before = load_triples(dashpots),
                     across = viscous_across<Oct>(
-                        none + springs.contact_damping, ks, n, rate,
-                        friction_left<Oct>(ks, tan, normal_force + along, root(length2)), press & ~slips);
+                        none + in_time.contact_damping, ks, n, rate,
+                        friction_left<Oct>(ks, tan, normal_force + felt, root(length2)), press & ~slips);
       viscous = along * n + across;
-      const Oct lost = (0.5 * springs.damping_step) * dot(viscous_before + viscous, rate);
+      const Oct lost = (0.5 * in_time.damping_step) * dot(viscous_before + viscous, rate);
       for (int lane = 0; lane < lanes; ++lane)
         if (here[lane] != 0)
           spent.damping += lost[lane];
-      store_triples(springs.viscous, chosen(here, viscous, viscous_before));
+      store_triples(dashpots, chosen(here, viscous, viscous_before));
     }
   }
   // The forces of the step before are still asked for where springs leave.

@@ -10,6 +10,15 @@ namespace cdem {
 // frames.begin; nine numbers each, column by column. u: displacements.
 void interface_rotations(const SpringBatches&, Range frames, const Node* displacement, double* rotation);
 
+// What contacts need in a step in time, of all springs of the model.
+struct ContactsInTime {
+  const double* rest_rate = nullptr; // as in BondWork, as all of these
+  double *usual_force = nullptr, *rested = nullptr;
+  double contact_damping = 0, damping_step = 0; // s
+  const Node* velocity = nullptr;
+  geom::Vec3* viscous = nullptr; // null: no dashpots
+};
+
 // One batch: what a step writes of its springs.
 struct SpringsOfBatch {
   const Node* displacement = nullptr;
@@ -18,10 +27,8 @@ struct SpringsOfBatch {
   const std::uint8_t* mode = nullptr;                                // the first spring's
   geom::Vec3 *offset = nullptr, *force = nullptr, *acting = nullptr; // acting: null where force acts
   bool breaking = false;
-  double contact_damping = 0; // s, as in BondWork; 0: none
-  double damping_step = 0;    // s
-  const Node* velocity = nullptr;
-  geom::Vec3* viscous = nullptr;
+  const ContactsInTime* contacts = nullptr; // null: no time passes
+  std::int64_t first = 0;                   // spring, of all
 };
 
 struct SpringSpent {

@@ -30,6 +30,10 @@ SpringMemory memory_of(const Model& model, const State& state, int p) {
   }
   if (!state.water_pressure.empty())
     m.water = state.water_pressure[p];
+  if (!state.rested.empty()) {
+    m.usual = state.usual_force[p] / model.points[p].area;
+    m.rested = state.rested[p];
+  }
   return m;
 }
 
@@ -44,6 +48,8 @@ void add(SpringMemory& sum, const SpringMemory& m, double weight) {
   sum.bond_slip += weight * m.bond_slip;
   sum.damage += weight * m.damage;
   sum.water += weight * m.water;
+  sum.usual += weight * m.usual;
+  sum.rested += weight * m.rested;
 }
 
 double covered(const Model& model, int block, int face, double area) {

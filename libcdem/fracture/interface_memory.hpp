@@ -4,7 +4,7 @@
 //
 //   preload and dilation    o.n, the normal part of the offset: the pressure follows from it and from where the faces stand
 //   elastic shear           (j - o)_s, so that the shear traction goes on
-//   slip, path, dilation, damage, water    as they are
+//   slip, path, dilation, damage, water, usual pressure and rest    as they are
 #pragma once
 
 #include "libcdem/state/state.hpp"
@@ -19,6 +19,8 @@ struct SpringMemory {
   geom::Vec3 bond_slip = geom::Vec3::Zero(); // m
   double damage = 0;
   double water = 0; // Pa
+  double usual = 0; // Pa, usual_force over the area
+  double rested = 0;
   std::uint8_t mode = 0;
 };
 

@@ -7,6 +7,17 @@
 //   open (t_n > 0):     t = 0, o_s follows j_s so that a closing face starts without shear
 //
 // A bond that softens between the two states: joint/softening.hpp.
+//
+// A contact that slides does not feel a change of its normal force at once (Prakash 1998, J. Tribol. 120, 97-102). If it did,
+// friction would feed the vibrations of a deformable block, whose springs then slide while little presses them (Adams 1998, J. Appl.
+// Mech. 65, 470-475). So where a block deforms, friction acts on
+//
+//   N = (1 - r^4) F + r^4 M,    d r / dt = omega / 10 while F > 0, else -omega / 10,  0 <= r <= 1
+//                               d M / dt = (F - M) omega / (10 r) while F > 0
+//
+// F is what presses, M its mean over the time in which the contact carries, and r the part of the time of means for which it has
+// carried, less that for which it was open. In an impact r^4 is below 0.01. omega is that of the block on the spring
+// (rest_rate in bond_work.cpp).
 #pragma once
 
 #include "libcdem/joint/coulomb_friction.hpp"
@@ -26,8 +37,8 @@ struct HeldByContact {
   T normal, shear;
 };
 
-// viscous: what a dashpot adds to the normal force kn open, at most as much as presses. Friction acts on both: dashpots
-// bear a part of the weight of what slides, as they press more than they pull.
+// viscous: what a dashpot adds to the normal force kn open, at most as much as presses, and what friction does not feel of the
+// two. Friction acts on both: dashpots bear a part of the weight of what slides, as they press more than they pull.
 template <class T>
 CDEM_INLINE HeldByContact<T> held_by_contact(const T& kn, const T& ks, const T& tan_friction, const T& open,
                                              const T& shear_length, const T& viscous = T{}) {
@@ -89,6 +100,37 @@ CDEM_INLINE Triple<T> viscous_across(const T& damping, const T& ks, const Triple
   const T part = sticks ? damping * ks : T{};
   const Triple<T> shear = part * (rate - dot(rate, normal) * normal);
   return held_by_friction<T>(root(dot(shear, shear)), friction_left) * shear;
+}
+
+// What a contact remembers of its normal force: M, N, and r.
+template <class T>
+struct ContactMeans {
+  T usual, rested;
+};
+
+// N, F - N: what friction does not feel of the force `pressed`, >= 0, of now. passed: part of the time of means that has passed
+// in the step, by which the means advance; 0: the contact has none.
+template <class T>
+CDEM_INLINE T unfelt_by_friction(const T& pressed, const T& passed, ContactMeans<T>& means) {
+  const T none{}, one = none + 1.0, more = means.rested + passed, less = means.rested - passed;
+  const auto carries = simd::below(none, pressed) & simd::below(none, passed);
+  const T grown = more < one ? more : one, shrunk = less > none ? less : none;
+  means.rested = carries ? grown : shrunk;
+  const T mean = means.usual + passed / (carries ? grown : one) * (pressed - means.usual);
+  means.usual = carries ? mean : means.usual;
+  const T rested2 = means.rested * means.rested, part = carries ? rested2 * rested2 : none;
+  return part * (pressed - means.usual);
+}
+
+// N, what friction feels beside the normal force (< 0 where it is pressed) of a contact: `viscous` less what is unfelt.
+template <class T>
+CDEM_INLINE T felt_beside(const T& normal_force, const T& viscous, const T& passed, T& usual, T& rested) {
+  const T none{}, pressing = none - (normal_force + viscous);
+  ContactMeans<T> means{usual, rested};
+  const T unfelt = unfelt_by_friction<T>(pressing > none ? pressing : none, passed, means);
+  usual = means.usual;
+  rested = means.rested;
+  return viscous + unfelt;
 }
 
 template <class T>

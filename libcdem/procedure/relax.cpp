@@ -1,5 +1,6 @@
 #include "libcdem/procedure/relax.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/procedure/fictitious_masses.hpp"
@@ -262,6 +263,7 @@ private:
         r.state_.spent.fictitious += r.stage_.report.sums.kinetic;
         stop(r.state_);
         stop(r.last_good_);
+        rest_contacts(r.model_, r.state_);
       }
     } at_rest{*this};
     try {

@@ -1,6 +1,7 @@
 // Dry joints at the usual step: the rattle of few steps dies out (bond/contact_damping.hpp), so masonry keeps its energy and
 // a block slides on a joint by Coulomb's law.
 #include "tests/libcdem/boxes.hpp"
+#include "tests/libcdem/going_on.hpp"
 
 #include "libcdem/bond/contact_damping.hpp"
 #include "libgeom/assembly/builders.hpp"
@@ -127,28 +128,94 @@ TEST_CASE("dry joints: a grid of blocks stands under its weight at the usual ste
   CHECK(s.energy().balance_error() < 0.03);
 }
 
-// The weight comes on at once, then the pull within 0.1 s.
-TEST_CASE("dry joints: below its friction a deformable block that is pulled does not creep", "[dry_joints]") {
-  const double part = GENERATE(0.9, 0.95);
-  CAPTURE(part);
+namespace {
+
+// A deformable block that lies flush on a rigid plate, without any damping.
+cdem::ModelSpec on_plate(const Vec3& size, double zone_size, double friction_angle, double youngs_modulus) {
   cdem::Elastic stone = rock();
-  stone.youngs_modulus = 1e9;
+  stone.youngs_modulus = youngs_modulus;
   cdem::ModelSpec spec;
-  spec.bodies = {body("plate", geom::grid({4, 4, 0.4}, {1, 1, 1}, {-2, -2, -0.4}), stone, friction(31)),
-                 body("block", geom::grid({1, 0.8, 0.2}, {1, 1, 1}, {-0.5, -0.4, 0}), stone, friction(31))};
+  spec.bodies = {
+      body("plate", geom::grid({4, 4, 0.4}, {1, 1, 1}, {-2, -2, -0.4}), stone, friction(friction_angle)),
+      body("block", geom::grid(size, {1, 1, 1}, {-0.5 * size.x(), -0.5 * size.y(), 0}), stone,
+           friction(friction_angle))};
   spec.bodies[0].element = cdem::Element::rigid;
   spec.bodies[1].element = cdem::Element::finite_volume;
-  spec.pairs = {{"plate", "block", friction(31)}};
-  cdem::Simulation s(spec, 1, nullptr);
-  s.fix(fixed(cdem::Selection::of_body("plate")));
+  spec.bodies[1].zone_size = zone_size;
+  spec.pairs = {{"plate", "block", friction(friction_angle)}};
+  return spec;
+}
+
+void set_gravity(cdem::Simulation& s, const Vec3& acceleration) {
   cdem::Gravity gravity;
-  const double limit = std::tan(31 * degree) * g;
-  gravity.acceleration = Vec3(0, 0, -g);
+  gravity.acceleration = acceleration;
+  s.gravity(gravity);
+}
+
+// `part` of the friction pulls after 0.2 s.
+void pull(cdem::Simulation& s, double part, double friction_angle) {
   for (int i = 0; i <= 20; ++i) {
-    gravity.acceleration.x() = part * limit * i / 20;
-    s.gravity(gravity);
+    set_gravity(s, {part * std::tan(friction_angle * degree) * g * i / 20, 0, -g});
     s.run(for_time(0.01));
   }
-  s.run(for_time(0.3));
-  CHECK(std::abs(s.mean("displacement.x", cdem::Selection::of_body("block"))) < 2.5e-6);
+}
+
+const cdem::Selection block = cdem::Selection::of_body("block");
+
+} // namespace
+
+TEST_CASE("dry joints: below its friction a deformable block that is pulled does not creep, above it slides",
+          "[dry_joints]") {
+  const double part = GENERATE(0.9, 0.99, 1.01);
+  const bool relaxed = GENERATE(false, true);
+  CAPTURE(part, relaxed);
+  cdem::Simulation s(on_plate({1, 0.8, 0.2}, 0, 31, 1e9), 1, nullptr);
+  s.fix(fixed(cdem::Selection::of_body("plate")));
+  set_gravity(s, {0, 0, -g}); // at once, unless a relaxation follows
+  if (relaxed)
+    s.relax({});
+  const double holds = part < 1 ? 0.3 : 0.5; // s
+  pull(s, part, 31);
+  s.run(for_time(holds));
+  if (part < 1)
+    CHECK(std::abs(s.mean("displacement.x", block)) < 2.5e-6);
+  else // the last hundredth of a second of the pull is above the friction
+    CHECK(s.mean("velocity.x", block) ==
+          Approx(0.01 * std::tan(31 * degree) * g * (holds + 0.01)).epsilon(0.02));
+  CHECK(s.energy().balance_error() < 1e-3);
+}
+
+// Friction that follows each vibration of the normal force lets them slide up to 1.4 times as fast.
+TEST_CASE("dry joints: a deformable plate slides down a slope as its friction says", "[dry_joints]") {
+  const double friction_angle = GENERATE(20, 30, 40), slope = (friction_angle + 3) * degree,
+               zone_size = GENERATE(0, 0.25);
+  CAPTURE(friction_angle, zone_size);
+  cdem::Simulation s(on_plate({1, 1, 0.25}, zone_size, friction_angle, 1e10), 1, nullptr);
+  s.fix(fixed(cdem::Selection::of_body("plate")));
+  set_gravity(s, {g * std::sin(slope), 0, -g * std::cos(slope)});
+  cdem::RelaxOptions relaxation;
+  relaxation.max_steps = 1000; // it never comes to rest
+  s.relax(relaxation);
+  s.run(for_time(0.05));
+  const double before = s.mean("velocity.x", block);
+  s.run(for_time(0.05));
+  CHECK((s.mean("velocity.x", block) - before) / 0.05 ==
+        Approx(g * (std::sin(slope) - std::tan(friction_angle * degree) * std::cos(slope))).epsilon(2e-3));
+}
+
+TEST_CASE("dry joints: a block that is left as it slides goes on to the same bits",
+          "[dry_joints][checkpoint]") {
+  check_going_on(
+      [](int threads, const std::shared_ptr<cdem::Observer>& observer) {
+        cdem::Simulation s(on_plate({1, 1, 0.25}, 0.25, 30, 1e9), threads, observer);
+        s.fix(fixed(cdem::Selection::of_body("plate")));
+        set_gravity(s, {0.6 * g, 0, -g});
+        return s;
+      },
+      [](cdem::Simulation& s, std::int64_t done) {
+        if (done < 1)
+          s.run(for_time(0.05));
+        return Figures{s.mean("displacement.x", block)};
+      },
+      {15, 40});
 }

@@ -22,7 +22,7 @@ Vec3 shear_part(const Vec3& v, const Vec3& n) {
 } // namespace
 
 TEST_CASE("a contact never pulls and its traction stays in the friction cone", "[springs]") {
-  for (std::uint64_t i = 0; i < 2000; ++i) {
+  for (std::uint64_t i = 0; i < 63 * 40; ++i) {
     Random r{i};
     const Vec3 n = r.vector(1).normalized();
     const double kn = r(1e8, 1e12), ks = r(1e8, 1e12), tan_friction = r(0, 1.5);
@@ -71,7 +71,7 @@ TEST_CASE("a contact that opens forgets its slip: closed again it starts without
 
 TEST_CASE("a bond breaks in tension above sigma_t and in shear above c0 - t_n tan phi, never below zero",
           "[springs]") {
-  for (std::uint64_t i = 0; i < 2000; ++i) {
+  for (std::uint64_t i = 0; i < 63 * 40; ++i) {
     Random r{i};
     const SpringStrength s{r(0, 1e7), r(0, 1.5), r(0, 1e7)};
     const double tn = r(-2e7, s.tensile_strength);
@@ -81,4 +81,33 @@ TEST_CASE("a bond breaks in tension above sigma_t and in shear above c0 - t_n ta
     CHECK(breaks(s, s.tensile_strength, 0) == BondMode::intact);
     CHECK(breaks(s, s.tensile_strength + 1e-3, 0) == BondMode::broken_tension);
   }
+}
+
+TEST_CASE("friction follows the mean of the normal force of a contact that has carried for long",
+          "[springs]") {
+  const double passed = 0.01, pi = 3.14159265358979323846;
+  ContactMeans<double> means{0, 0};
+  const auto felt = [&](double pressed) {
+    return pressed - unfelt_by_friction<double>(pressed, passed, means);
+  };
+  CHECK(felt(3) == 3); // it begins
+  CHECK(means.usual == 3);
+  means = {};
+  double impulse = 0, of_friction = 0;
+  for (int i = 0; i < 31; ++i) { // an impact, half an oscillation
+    const double force = std::sin(pi * i / 31);
+    impulse += force;
+    of_friction += felt(force);
+  }
+  CHECK(of_friction == Approx(impulse).epsilon(0.005));
+  for (int i = 0; i < 63 * 40; ++i) // a vibration of the frequency omega
+    felt(2 + std::sin(2 * pi * i / 63));
+  for (int i = 0; i < 63; ++i)
+    CHECK(felt(2 + std::sin(2 * pi * i / 63)) == Approx(2).epsilon(0.06));
+  const double before = means.usual;
+  felt(0); // it opens for a moment
+  CHECK(means.usual == before);
+  CHECK(means.rested == Approx(0.99));
+  ContactMeans<double> none{0, 0};
+  CHECK(unfelt_by_friction<double>(3, 0, none) == 0); // of rigid blocks
 }
