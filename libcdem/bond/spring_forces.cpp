@@ -62,10 +62,15 @@ void softening_spring(const BondPoint& point, State& state, BondWork& work, std:
   }
 }
 
+// N, of a spring that is a contact: what its dashpot adds to its normal force, and what friction feels beside that force.
+struct BesideNormal {
+  double viscous = 0, felt = 0;
+};
+
 // A spring whose joint has a law, broken or never bonded; broke: just now. What it loses is the work of its own traction
-// by the trapezoidal rule less the change of what it stores. along: N, what friction feels beside its normal force.
+// by the trapezoidal rule less the change of what it stores.
 void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64_t p,
-                const geom::Vec3& jump_now, bool broke, double along, SpringSums& sums) {
+                const geom::Vec3& jump_now, bool broke, const BesideNormal& beside, SpringSums& sums) {
   const InterfaceLaw& own = work.laws[point.interface];
   JointHistory& history = state.joint_history[p];
   geom::Vec3& offset = state.bond_offset[p];
@@ -75,7 +80,8 @@ void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64
       broke ? stored_in_spring(own.spring.kn, own.spring.ks, point.normal, traction_before)
             : joint_stored(*own.law, own.spring, point.normal, stretch_before, history.parted);
   const JointResponse r =
-      joint_response(*own.law, own.spring, point.normal, jump_now, offset, history, -along / point.area);
+      joint_response(*own.law, own.spring, point.normal, jump_now, offset, history,
+                     {-beside.viscous / point.area, (beside.felt - beside.viscous) / point.area});
   const geom::Vec3 stretch = jump_now - r.offset;
   const double lost =
       0.5 * (traction_before + r.traction).dot(jump_now - jump_before) -
@@ -95,12 +101,11 @@ void law_spring(const BondPoint& point, State& state, BondWork& work, std::int64
 }
 
 // One spring at the relative displacement j of its two sides, in undeformed directions. special: some joint of the
-// model softens or has a law; a model of plain brittle bonds pays nothing for the others. along: N, what friction feels beside
-// the normal force of a contact.
+// model softens or has a law; a model of plain brittle bonds pays nothing for the others.
 template <bool special>
 CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interface, State& state,
                                BondWork& work, std::int64_t p, const geom::Vec3& j, SpringSums& sums,
-                               bool breaking, double along) {
+                               bool breaking, const BesideNormal& beside) {
   const geom::Vec3& n = point.normal;
   const SpringStrength& strength = work.strength[point.interface];
   const geom::Vec3 stretch = j - state.bond_offset[p];
@@ -134,12 +139,13 @@ CDEM_INLINE void update_spring(const BondPoint& point, const Interface& interfac
   }
   if constexpr (special)
     if (!work.laws.empty() && work.laws[point.interface].law) {
-      law_spring(point, state, work, p, j, broke, along, sums);
+      law_spring(point, state, work, p, j, broke, beside, sums);
       return;
     }
   // Contact: the spring was never bonded or has broken, at the latest just now.
-  const HeldByContact<double> held = held_by_contact<double>(
-      point.kn_area, point.ks_area, strength.tan_friction, open, root(dot(parts.shear, parts.shear)), along);
+  const HeldByContact<double> held =
+      held_by_contact<double>(point.kn_area, point.ks_area, strength.tan_friction, open,
+                              root(dot(parts.shear, parts.shear)), beside.felt);
   const Triple<double> slip = (1 - held.shear) * parts.shear;
   const geom::Vec3 before = work.spring_force[p];
   if (held.shear < 1)
@@ -193,11 +199,6 @@ double damping_of_contact(const BondWork& work, int interface) {
 double passed_of_means(const BondWork& work, int interface) {
   return std::min(1.0, work.damping_step * work.rest_rate[interface]);
 }
-
-// N, of a spring that is a contact: what its dashpot adds to its normal force, and what friction feels beside that force.
-struct BesideNormal {
-  double viscous = 0, felt = 0;
-};
 
 // rate: m/s, of its stretch; zero without dashpots. Advances the means that friction follows.
 template <bool special>
@@ -279,9 +280,9 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   const Node* const u = state.displacement.data();
   if (interface.frame < 0) {
     const geom::Vec3 j = jump_at(point, u), still = geom::Vec3::Zero();
-    const double felt =
-        c.advances ? beside_normal<special>(c, p, still, j - contact_offset(state, p)).felt : 0;
-    update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, felt);
+    const BesideNormal beside =
+        c.advances ? beside_normal<special>(c, p, still, j - contact_offset(state, p)) : BesideNormal();
+    update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, beside);
     if (c.acts_otherwise)
       work.acting_force[p] = work.spring_force[p] + water_force(state, point, p);
     return;
@@ -300,7 +301,7 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
                                    : geom::Vec3(geom::Vec3::Zero());
   const BesideNormal beside =
       c.advances ? beside_normal<special>(c, p, rate, j - offset_before) : BesideNormal();
-  update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, beside.felt);
+  update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, beside);
   geom::Vec3 acting = work.spring_force[p] + water_force(state, point, p);
   if (c.damped) {
     // Damping takes in a step the mean of its forces before and after it, times the motion.
@@ -442,7 +443,7 @@ void spring_forces(const Model& model, State& state, BondWork& work, std::int64_
                                breaking,
                                !work.acting_force.empty(),
                                work.damping_step > 0 && !work.viscous.empty(),
-                               work.damping_step > 0 && !state.rested.empty()};
+                               work.damping_step > 0};
   if (state.bond_damage.empty() && state.joint_history.empty())
     forces_of_springs<false>(chunk, springs);
   else
@@ -504,25 +505,13 @@ void start_spring_forces(const Model& model, const State& state, BondWork& work)
     work.stretch[p] = local_jump(model, state.displacement, static_cast<int>(p)) - state.bond_offset[p];
 }
 
-bool lacks_means(const State& state) {
-  return state.rested.empty() && !std::all_of(state.bond_mode.begin(), state.bond_mode.end(),
-                                              [](std::uint8_t mode) { return is_intact(mode); });
-}
-
-void make_room_for_means(State& state) {
-  state.usual_force.assign(state.bond_mode.size(), 0.0);
-  state.rested.assign(state.bond_mode.size(), 0.0);
-}
-
 void rest_contacts(const Model& model, State& state) {
-  if (lacks_means(state))
-    make_room_for_means(state);
   for (std::size_t p = 0; p < model.points.size(); ++p)
     if (!is_intact(state.bond_mode[p])) {
       const BondPoint& point = model.points[p];
       state.usual_force[p] =
           std::max(0.0, -point.area * traction(model, state, static_cast<int>(p)).dot(point.normal));
-      state.rested[p] = 1;
+      state.rested[p] = state.usual_force[p] > 0 ? 1 : 0;
     }
 }
 

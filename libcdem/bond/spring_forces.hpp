@@ -25,10 +25,6 @@ void add_bond_reads(const Model&, const BondWork&, std::int64_t chunk, ReadAhead
 // Forces of the present state without any breaking or slip. The energy losses of the first step are counted from them.
 void start_spring_forces(const Model&, const State&, BondWork&);
 
-// Some spring is a contact, and there is no room for usual_force and rested.
-bool lacks_means(const State&);
-void make_room_for_means(State&);
-
 // Writes usual_force and rested of contacts that have been at rest for long, as after a relaxation.
 void rest_contacts(const Model&, State&);
 

@@ -125,8 +125,6 @@ void require_fits(const Model& model, const State& state) {
     if (!(history.path >= 0 && history.parted >= 0))
       refuse_state("joint_history",
                    std::to_string(std::min(history.path, history.parted)) + " is out of range");
-  if (state.rested.size() != state.usual_force.size())
-    refuse_state("rested", "its length is not that of usual_force");
   for (const double rested : state.rested)
     if (!(rested >= 0 && rested <= 1))
       refuse_state("rested", std::to_string(rested) + " is out of range");

@@ -30,10 +30,8 @@ SpringMemory memory_of(const Model& model, const State& state, int p) {
   }
   if (!state.water_pressure.empty())
     m.water = state.water_pressure[p];
-  if (!state.rested.empty()) {
-    m.usual = state.usual_force[p] / model.points[p].area;
-    m.rested = state.rested[p];
-  }
+  m.usual = state.usual_force[p] / model.points[p].area;
+  m.rested = state.rested[p];
   return m;
 }
 

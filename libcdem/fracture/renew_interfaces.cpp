@@ -110,10 +110,8 @@ void take_up(const Model& model, State& state, int p, const SpringMemory& m) {
   }
   if (!state.water_pressure.empty())
     state.water_pressure[p] = m.water;
-  if (!state.rested.empty()) {
-    state.usual_force[p] = model.points[p].area * m.usual;
-    state.rested[p] = m.rested;
-  }
+  state.usual_force[p] = model.points[p].area * m.usual;
+  state.rested[p] = m.rested;
 }
 
 void leave_to_contact(const Model& model, State& state, const InterfaceToRenew& of) {

@@ -7,6 +7,9 @@
 //
 //   k_s (|e_s| - x) = strength(p(x), path + x),    p(x) the pressure after the rise of the slip x
 //
+// A pressure P beside which friction feels only N (joint/spring_law.hpp) bears strength(N) + (P - N) tan(psi), with the dilation
+// angle psi under N: what lifts the faces acts at once. So slip takes strength(N) - N tan(psi), which is never below 0.
+//
 // The slip is added to o_s, the rise to o_n. Faces that are apart carry no traction. There o_s follows their relative
 // displacement, and o_n the rise without pressure until they touch: their asperities have moved past each other all the
 // same.
@@ -45,6 +48,12 @@ struct JointResponse {
   geom::Vec3 traction = geom::Vec3::Zero(); // Pa, pulls a towards b when along the normal
   geom::Vec3 offset = geom::Vec3::Zero();   // m, new o
   JointHistory history;
+};
+
+// Pa, beside the pressure of the spring itself. viscous: of a dashpot; unfelt: what friction does not feel of the two
+// (joint/spring_law.hpp).
+struct BesidePressure {
+  double viscous = 0, unfelt = 0;
 };
 
 namespace joint_law {
@@ -104,7 +113,7 @@ double zero_of(const F& f, double low, double high, double f_low, double first, 
 template <class Law>
 JointResponse response(const Law& law, const JointSpring& spring, const geom::Vec3& normal,
                        const geom::Vec3& jump, const geom::Vec3& offset, const JointHistory& history,
-                       double viscous) {
+                       const BesidePressure& beside) {
   JointResponse r{geom::Vec3::Zero(), offset, history};
   const geom::Vec3 stretch = jump - offset;
   const double open = stretch.dot(normal);
@@ -123,26 +132,30 @@ JointResponse response(const Law& law, const JointSpring& spring, const geom::Ve
   }
   const double pressure = pressure_at(law, spring, open, r.history.parted), length = shear.norm(),
                trial = spring.ks * length;
-  const double strength = law.strength(spring, std::max(0.0, pressure + viscous), history.path);
-  if (!(trial > strength)) {
+  const double before = history.slip.norm();
+  const auto felt = [&](double now) { return std::max(0.0, now + beside.viscous - beside.unfelt); };
+  const auto rise_to = [&](const geom::Vec3& slip) {
+    return dilation_after(law, spring, history, felt(pressure), before, slip.norm()) - history.dilation;
+  };
+  const double lifts =
+      beside.unfelt == 0 || length == 0 ? 0 : beside.unfelt * rise_to(history.slip + shear) / length;
+  const auto borne = [&](double now, double path) {
+    return std::max(0.0, law.strength(spring, felt(now), path) + lifts);
+  };
+  const double beyond_now = trial - borne(pressure, history.path);
+  if (!(beyond_now > 0)) {
     r.traction = -pressure * normal + spring.ks * shear;
     return r;
   }
   const geom::Vec3 along = shear / length;
-  const double before = history.slip.norm();
-  const auto rise_by = [&](double x) {
-    return dilation_after(law, spring, history, pressure, before, (history.slip + x * along).norm()) -
-           history.dilation;
-  };
+  const auto rise_by = [&](double x) { return rise_to(history.slip + x * along); };
   const auto pressure_after = [&](double x) {
     return pressure_at(law, spring, open - rise_by(x), r.history.parted);
   };
   const auto beyond = [&](double x) {
-    return spring.ks * (length - x) -
-           law.strength(spring, std::max(0.0, pressure_after(x) + viscous), history.path + x);
+    return spring.ks * (length - x) - borne(pressure_after(x), history.path + x);
   };
-  const double slip =
-      zero_of(beyond, 0, length, trial - strength, (trial - strength) / spring.ks, close_enough * trial);
+  const double slip = zero_of(beyond, 0, length, beyond_now, beyond_now / spring.ks, close_enough * trial);
   const double rise = rise_by(slip);
   r.history.slip += slip * along;
   r.history.path += slip;
@@ -165,12 +178,12 @@ double stored(const Law& law, const JointSpring& spring, const geom::Vec3& norma
 
 } // namespace joint_law
 
-// Response of a spring whose joint has a law, broken or never bonded. viscous: Pa, pressure of a dashpot beside its own.
+// Response of a spring whose joint has a law, broken or never bonded.
 inline JointResponse joint_response(const JointLaw& law, const JointSpring& spring, const geom::Vec3& normal,
                                     const geom::Vec3& jump, const geom::Vec3& offset,
-                                    const JointHistory& history, double viscous = 0) {
+                                    const JointHistory& history, const BesidePressure& beside = {}) {
   return with_law(law, [&](const auto& own) {
-    return joint_law::response(own, spring, normal, jump, offset, history, viscous);
+    return joint_law::response(own, spring, normal, jump, offset, history, beside);
   });
 }
 

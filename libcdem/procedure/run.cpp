@@ -216,10 +216,8 @@ public:
             fmt::format("the time step fell from {:.3g} to {:.3g} s: faces that crack are stiff", before,
                         stepping_.time_step));
     }
-    const bool looks = changed || stage_.begins() || stage_.is_due(watch_every);
-    if (looks && state_.rested.empty() && ranks().any(lacks_means(state_)))
-      make_room_for_means(state_);
-    if (chooses_step_ && looks && any_dry_joint(model_, state_))
+    if (chooses_step_ && (changed || stage_.begins() || stage_.is_due(watch_every)) &&
+        any_dry_joint(model_, state_))
       shorten(options_.safety * stable_step_of_dry_joints(stage_.stable));
     stage_.work.bond.contact_damping = contact_damping(
         stepping_.time_step, scaled_.on() ? stepping_.time_step / options_.safety : stage_.stable);

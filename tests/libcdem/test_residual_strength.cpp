@@ -67,6 +67,27 @@ cdem::ResidualStrength residual(double friction, double dilation = 0, double lim
 
 } // namespace
 
+TEST_CASE("friction and dilation follow the pressure that friction feels, what lifts the faces acts at once",
+          "[joint_law]") {
+  const double unfelt = GENERATE(-3e5, 0.0, 4e5, 9e5), slip_before = GENERATE(0.0, 0.01), friction = 0.4,
+               dilation = GENERATE(0.1, 0.4);
+  cdem::JointHistory history;
+  history.path = slip_before + 1e-6;
+  history.slip = {-slip_before, 0, 0}; // the slip goes back where there was some
+  history.dilation = dilation * slip_before;
+  const double rises = slip_before > 0 ? -dilation : dilation;
+  const cdem::JointLaw law = residual(friction, dilation);
+  const cdem::JointResponse r =
+      cdem::joint_response(law, spring, normal, {5e-3, 0, -1e-3}, Vec3::Zero(), history, {0, unfelt});
+  const double pressure = -r.traction.z(), felt = std::max(0.0, pressure - unfelt),
+               slip = r.history.path - history.path;
+  REQUIRE(slip > 0);
+  CAPTURE(unfelt, slip_before, dilation, pressure);
+  CHECK(r.offset.z() == Approx(rises * slip));
+  CHECK(r.traction.x() == Approx(std::max(0.0, felt * friction + unfelt * rises)).margin(1e-3));
+  CHECK(r.traction.x() - pressure * rises >= -1e-6 * pressure); // what slip takes
+}
+
 TEST_CASE("friction falls to its residual with the first slip", "[joint_law]") {
   Spring s{residual(0.4)};
   s.go_to({0, 0, -1e-3}); // 1 MPa

@@ -22,7 +22,7 @@ Vec3 shear_part(const Vec3& v, const Vec3& n) {
 } // namespace
 
 TEST_CASE("a contact never pulls and its traction stays in the friction cone", "[springs]") {
-  for (std::uint64_t i = 0; i < 63 * 40; ++i) {
+  for (std::uint64_t i = 0; i < 2000; ++i) {
     Random r{i};
     const Vec3 n = r.vector(1).normalized();
     const double kn = r(1e8, 1e12), ks = r(1e8, 1e12), tan_friction = r(0, 1.5);
@@ -71,7 +71,7 @@ TEST_CASE("a contact that opens forgets its slip: closed again it starts without
 
 TEST_CASE("a bond breaks in tension above sigma_t and in shear above c0 - t_n tan phi, never below zero",
           "[springs]") {
-  for (std::uint64_t i = 0; i < 63 * 40; ++i) {
+  for (std::uint64_t i = 0; i < 2000; ++i) {
     Random r{i};
     const SpringStrength s{r(0, 1e7), r(0, 1.5), r(0, 1e7)};
     const double tn = r(-2e7, s.tensile_strength);
