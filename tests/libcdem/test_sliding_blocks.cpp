@@ -163,7 +163,7 @@ TEST_CASE("sliding blocks: under a constant pressure a block does not sink", "[s
 
 // The block is pushed at its whole speed at once, and vibrates: its mean force is that of the law, as the work of the push tells.
 TEST_CASE("sliding blocks: a pressed joint with dilation follows its law", "[sliding][joint_laws]") {
-  const double pressure = 1e6, angle = GENERATE(0.0, 10.0, 24.9);
+  const double pressure = 1e6, angle = GENERATE(10.0, 24.9);
   ShearBox box(dilating(angle), straight, 0, 0, 1, {3, 3, 1}, 0.2); // flat: all of its joint stays pressed
   box.s.traction(traction(box.top, {0, 0, -pressure}));
   box.s.fix(fixed(box.top, "xy"));
@@ -180,7 +180,7 @@ TEST_CASE("sliding blocks: a pressed joint with dilation follows its law", "[sli
     box.s.run(lasting(0.5));
     const double slid = box.moved(0);
     CAPTURE(angle, slid);
-    CHECK(box.moved(2) - height == Approx(slid * std::tan(angle * degree)).epsilon(0.03).margin(1e-4));
+    CHECK(box.moved(2) - height == Approx(slid * std::tan(angle * degree)).epsilon(0.03));
     const double work =
         box.s.energy().external - given_before + pressure * (box.moved(2) - rise_before); // J, of the push
     CHECK(work / (slid - slid_before) == Approx(pressure * std::tan(25 * degree)).epsilon(0.003));
