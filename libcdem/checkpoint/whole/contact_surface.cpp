@@ -44,8 +44,6 @@ void check_surface(const Model& model) {
   for (const ContactEdge& edge : surface.edges) {
     all_below("surface.edges.nodes", edge.nodes, nodes);
     all_below("surface.edges.triangles", edge.triangles, triangles);
-    require(surface.triangles[edge.triangles[0]].block == surface.triangles[edge.triangles[1]].block,
-            "surface.edges.triangles", edge.triangles[1]);
     below("surface.edges.corner", edge.corner, 3);
     require(surface.triangles[edge.triangles[0]].block == surface.triangles[edge.triangles[1]].block,
             "surface.edges.triangles", edge.triangles[1]);
