@@ -101,7 +101,8 @@ std::int64_t Simulation::remove(const Selection& on, const Excavation& excavatio
   const auto removed = static_cast<std::int64_t>(s.model.blocks.size() - left.size());
   if (removed == 0)
     throw geom::InputError("on", on.text, "a place that holds block centroids",
-                           "nothing of the model lies there");
+                           "nothing of the model lies there, or a body of joined blocks or a mesh, whose one "
+                           "centroid is elsewhere");
   if (left.empty())
     throw geom::InputError("on", on.text, "a part of the model",
                            "removing everything leaves nothing to solve");

@@ -198,8 +198,8 @@ void warn_after_stage(Session& session, ModelObject& model, const Stage& stage) 
   for (const auto& [a, b] : model.simulation.unmet())
     model.notes->at_end.push_back(
         shown_pair(a, b) +
-        ": they had no interface and never touched, so that the law acted on nothing; look at "
-        "their places and names, or leave it out");
+        ": they had no interface and never touched, so that the law acted on nothing; look at " +
+        (a == b ? "their places" : "their places and names, or leave it out"));
   if (const double share = model.simulation.excavation_kept(); share > 0 && !model.trial)
     model.notes->at_end.push_back(
         "model " + std::to_string(model.number) +
