@@ -21,6 +21,13 @@ double six_volumes(const EightCorners& x, int tet) {
   return (t[1] - t[0]).dot((t[2] - t[0]).cross(t[3] - t[0]));
 }
 
+EightCorners turned_out(EightCorners x) {
+  for (int tet = 0; tet < 2; ++tet)
+    if (six_volumes(x, tet) < 0)
+      std::swap(x[4 * tet + 2], x[4 * tet + 3]);
+  return x;
+}
+
 // Two tetrahedra of about a metre, whose middles stand `apart` metres from each other along x.
 EightCorners random_pair(std::mt19937& random, double apart) {
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -28,9 +35,7 @@ EightCorners random_pair(std::mt19937& random, double apart) {
     EightCorners x;
     for (int i = 0; i < 8; ++i)
       x[i] = Vec3(uniform(random) + (i < 4 ? 0 : apart), uniform(random), uniform(random));
-    for (int tet = 0; tet < 2; ++tet)
-      if (six_volumes(x, tet) < 0)
-        std::swap(x[4 * tet + 2], x[4 * tet + 3]);
+    x = turned_out(x);
     if (six_volumes(x, 0) > 0.3 && six_volumes(x, 1) > 0.3)
       return x;
   }
@@ -143,4 +148,27 @@ TEST_CASE("tetrahedra press each other just where they overlap", "[contact]") {
       CHECK(after.energy[lane] == 0);
   }
   CHECK(parted > 200);
+}
+
+TEST_CASE("edges of tetrahedra that cross press in proportion to the depth, as a corner does", "[contact]") {
+  // Regular ones with edges of 1 m.
+  const double half = 0.5, height = std::sqrt(0.5), tall = std::sqrt(2.0 / 3), wide = 1 / std::sqrt(3);
+  const double depth = GENERATE(1e-4, 1e-2, 0.1);
+  const auto lifted = [](const EightCorners& x) {
+    const TetPairPress batch = pressed(same(turned_out(x)));
+    Vec3 sum = Vec3::Zero();
+    for (int i = 4; i < 8; ++i)
+      sum += force(batch, i);
+    CHECK(sum.head<2>().norm() < 1e-12);
+    return sum.z();
+  };
+  // The edge stands at depth / sqrt 3 below two faces, and from there out it rises to the surface.
+  const Vec3 down(0, 0, -depth);
+  CHECK(lifted({Vec3(-half, 0, 0), Vec3(half, 0, 0), Vec3(0, half, -height), Vec3(0, -half, -height),
+                down + Vec3(0, -half, 0), down + Vec3(0, half, 0), down + Vec3(half, 0, height),
+                down + Vec3(-half, 0, height)}) == Approx(depth / 18));
+  const Vec3 tip = down + Vec3(1, 0.3, 0); // far from the edges and the middle of a large face
+  CHECK(lifted({Vec3(5, 0, 0), Vec3(-3, 4, 0), Vec3(-3, -4, 0), Vec3(0, 0, -5), tip,
+                tip + Vec3(wide, 0, tall), tip + Vec3(-wide / 2, half, tall),
+                tip + Vec3(-wide / 2, -half, tall)}) == Approx(0.75 * depth));
 }

@@ -163,10 +163,10 @@ private:
   }
 
   double height(std::size_t i) const { return std::min(first(i).size.height, second(i).size.height); } // m
-  // m, depth at which one corner would have the pair's energy.
+  // m, depth at which one corner with its edges would have the pair's energy.
   double as_one_corner(std::size_t i) const {
     const auto& [batch, lane] = result_[i];
-    return std::sqrt(4 * energy(i) / batches_[batch].stiffness[lane]);
+    return std::sqrt(8.0 / 3 * energy(i) / batches_[batch].stiffness[lane]);
   }
   // Whether the depth that is told is the true one.
   bool is_deep(std::size_t i) const { return as_one_corner(i) > 0.1 * height(i); }

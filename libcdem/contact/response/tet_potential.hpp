@@ -7,12 +7,14 @@
 // The corners, the edges and the middles of the faces of the other tetrahedron, the source, lie in it. With the stiffness k of the
 // pair (N/m):
 //
-//   U = k/4 (sum over corners of phi+^2 + sum over edges of the integral of phi+^2 over the edge's own length, 0 to 1
+//   U = k/4 (sum over corners of phi+^2 + 1/2 sum over edges of the mean of phi^2 over the part of the edge where phi > 0
 //            + 6 sum over faces of phi+^2 in their middles)
 //
-// and the same the other way round. Over an edge phi is linear piece by piece, so the integral is closed, and the forces at all
-// eight corners are the exact gradient of U: they keep momentum, angular momentum and energy. Where two faces lie on each other as
-// they did in the mesh, corners and edges lie on planes of the other one: the middles of the faces alone carry.
+// and the same the other way round. Over an edge phi is linear piece by piece, so the mean is closed, and the forces at all
+// eight corners are the exact gradient of U: they keep momentum, angular momentum and energy. With the integral over the whole
+// edge in place of the mean, edges that cross would hardly press, as a small part of them is inside. A corner in a flat face has
+// the force 3/4 k phi, a third of it by its edges, as three semi-springs. Where two faces lie on each other as they did in the mesh, corners and edges lie on
+// planes of the other one: the middles of the faces alone carry.
 // phi0 (m) is the overlap that a pair may have without a force.
 #pragma once
 
@@ -77,8 +79,8 @@ CDEM_INLINE V parted_by_plane(const DepthsInTet<V>& at) {
   return apart;
 }
 
-// The faces of the source are the planes of the target: as many, and middle_share of U each, over that of a corner.
-inline constexpr double middle_share = 6;
+// Of U, over that of a corner. The faces of the source are the planes of the target: as many.
+inline constexpr double edge_share = 0.5, middle_share = 6;
 
 // m, min over k of D_k in the middle of a face of the source.
 template <class V>
@@ -195,16 +197,20 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
     // The part of the edge inside all planes.
     V from = zero, to = one;
     Mask outside{};
+    std::array<V, 4> cut; // where it meets the plane
     for (int plane = 0; plane < 4; ++plane) {
       const V a = d[plane][p], b = d[plane][q];
       const Mask starts_out = simd::below<V>(a, zero), ends_out = simd::below<V>(b, zero);
       outside |= simd::at_most<V>(a, zero) & simd::at_most<V>(b, zero);
-      const V t = a / (a == b ? one : a - b);
+      const V t = cut[plane] = a / (a == b ? one : a - b);
       from = simd::most<V>(from, starts_out ? (ends_out ? never : t) : zero);
       to = simd::least<V>(to, ends_out ? t : one);
     }
-    if (!simd::any(simd::below<V>(from, to) & ~outside))
+    const Mask enters = simd::below<V>(from, to) & ~outside;
+    if (!simd::any(enters))
       continue;
+    const V per_part = 1.0 / (enters ? to - from : one), weight = edge_share * half * per_part;
+    V of_edge{};
     // Of each plane, the part where it is the nearest.
     std::array<V, 4> begin, end;
     begin.fill(from);
@@ -227,16 +233,33 @@ CDEM_INLINE V press_into_tet(const TetCorners<V>& target, const TetCorners<V>& s
       const V grows = d[plane][q] - d[plane][p], fa = d[plane][p] + grows * a, fb = d[plane][p] + grows * b;
       const V all = 0.5 * w * (fa + fb), squares = (1.0 / 3) * w * (fa * fa + fa * fb + fb * fb),
               moment = (1.0 / 6) * w * (fa * (2.0 * a + b) + fb * (a + 2.0 * b));
-      energy += 0.5 * half * squares;
-      share[plane][q] += half * moment;
-      share[plane][p] += half * (all - moment);
+      of_edge += 0.5 * weight * squares;
+      share[plane][q] += weight * moment;
+      share[plane][p] += weight * (all - moment);
+    }
+    energy += of_edge;
+    // The larger the part, the smaller the mean.
+    const V by_part = per_part * of_edge;
+    Mask begins{}, ends{};
+    for (int plane = 0; plane < 4; ++plane) {
+      const V a = d[plane][p], b = d[plane][q], t = cut[plane];
+      const Mask begins_here = enters & simd::below<V>(a, zero) & simd::equal<V>(t, from) & ~begins,
+                 ends_here = enters & simd::below<V>(b, zero) & simd::equal<V>(t, to) & ~ends;
+      begins |= begins_here;
+      ends |= ends_here;
+      const V moves = (begins_here ? by_part : ends_here ? -by_part : zero) / (a == b ? one : a - b);
+      share[plane][p] += moves * (1.0 - t);
+      share[plane][q] += moves * t;
     }
   }
   for (int plane = 0; plane < 4; ++plane) {
     const auto& s = share[plane];
-    const V sum = s[0] + s[1] + s[2] + s[3];
-    if (!simd::any(simd::below<V>(zero, sum)))
+    V largest = zero;
+    for (const V& at_corner : s)
+      largest = simd::most<V>(largest, simd::most<V>(at_corner, -at_corner));
+    if (!simd::any(simd::below<V>(zero, largest)))
       continue;
+    const V sum = s[0] + s[1] + s[2] + s[3];
     const Triple<V>& n = at.normal[plane];
     Triple<V> moment = scaled(s[0], source[0]);
     for (int i = 1; i < 4; ++i)
