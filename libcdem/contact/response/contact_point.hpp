@@ -20,7 +20,8 @@ ContactLaw edge_law(const Model&, const Joint&, double tan_friction, const std::
                     const std::array<int, 2>& to);
 
 // Means of a tetrahedron's faces and heights, undeformed. Two faces that lie on each other as they did in the mesh, pressed by their
-// middles alone, are 4 times as stiff as the tetrahedra behind them, a corner in a face a quarter, as with semi-springs; in shear a pair is a third as stiff.
+// middles alone, are 4 times as stiff as the tetrahedra behind them, a corner in a face a quarter, as with semi-springs; in shear
+// a pair is a third as stiff.
 struct TetSize {
   double area = 0, height = 0; // m2, m
 };

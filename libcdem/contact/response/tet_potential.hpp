@@ -13,8 +13,8 @@
 // and the same the other way round. Over an edge phi is linear piece by piece, so the mean is closed, and the forces at all
 // eight corners are the exact gradient of U: they keep momentum, angular momentum and energy. With the integral over the whole
 // edge in place of the mean, edges that cross would hardly press, as a small part of them is inside. A corner in a flat face has
-// the force 3/4 k phi, a third of it by its edges, as three semi-springs. Where two faces lie on each other as they did in the mesh, corners and edges lie on
-// planes of the other one: the middles of the faces alone carry.
+// the force 3/4 k phi, a third of it by its edges, as three semi-springs. Where two faces lie on each other as they did in the
+// mesh, corners and edges lie on planes of the other one: the middles of the faces alone carry.
 // phi0 (m) is the overlap that a pair may have without a force.
 #pragma once
 
