@@ -78,7 +78,7 @@ TEST_CASE("friction and dilation follow the pressure that friction feels, what l
   const double rises = slip_before > 0 ? -dilation : dilation;
   const cdem::JointLaw law = residual(friction, dilation);
   const cdem::JointResponse r =
-      cdem::joint_response(law, spring, normal, {5e-3, 0, -1e-3}, Vec3::Zero(), history, {0, unfelt});
+      cdem::joint_response(law, spring, face_normal, {5e-3, 0, -1e-3}, Vec3::Zero(), history, {0, unfelt});
   const double pressure = -r.traction.z(), felt = std::max(0.0, pressure - unfelt),
                slip = r.history.path - history.path;
   REQUIRE(slip > 0);
