@@ -28,26 +28,13 @@ constexpr double plane_grid = 500;
 // Largest motion in a step, over a tet's height.
 constexpr double way_part = 0.1;
 
-// How stiff the laws of a body's contacts say that they are.
-struct GivenStiffness {
-  double stiffest = 0;                // Pa/m
-  bool by_all = true;                 // else some are as stiff as the tets beside them
-  double with(double of_tets) const { // Pa/m, at most
-    return by_all && stiffest > 0 ? stiffest : std::max(of_tets, stiffest);
-  }
-};
-
-std::vector<GivenStiffness> given_stiffness(const Model& model) { // by body
-  std::vector<GivenStiffness> given(model.bodies.size());
-  for (const auto& [bodies, number] : model.surface.joint)
-    for (const int body : {bodies.first, bodies.second}) {
-      const Joint& law = model.joints[number];
-      GivenStiffness& of = given[body];
-      of.by_all = of.by_all && law.normal_stiffness;
-      of.stiffest =
-          std::max({of.stiffest, law.normal_stiffness.value_or(0), law.shear_stiffness.value_or(0)});
-    }
-  return given;
+// Pa/m, per body: the stiffest that any of its contacts is given to be; 0: all are as stiff as their tets.
+std::vector<double> given_stiffness(const Model& model) {
+  std::vector<double> stiffest(model.bodies.size(), 0.0);
+  for (const auto& [bodies, law] : model.surface.joint)
+    for (const int body : {bodies.first, bodies.second})
+      stiffest[body] = std::max(stiffest[body], model.joints[law].normal_stiffness.value_or(0));
+  return stiffest;
 }
 
 struct ClosingStiffness {
@@ -55,12 +42,12 @@ struct ClosingStiffness {
 };
 
 ClosingStiffness closing_stiffness(const Model& model) {
-  const std::vector<GivenStiffness> given = given_stiffness(model);
+  const std::vector<double> given = given_stiffness(model);
   std::vector<double> contact(model.node_mass.size(), 0.0);
   for (const ContactTriangle& t : model.surface.triangles)
     if (t.face < 0 && model.blocks[t.block].rigid < 0)
       for (const int node : t.nodes)
-        contact[node] += 2 * t.area / 3 * given[model.blocks[t.block].body].stiffest;
+        contact[node] += 2 * t.area / 3 * given[model.blocks[t.block].body];
   std::vector<double> elements = element_row_sums(model);
   std::vector<double> springs(model.node_mass.size(), 0.0);
   add_spring_row_sums(model, springs);
@@ -105,7 +92,7 @@ double rigid_time_step(const Model& model, double safety) {
 
 double rigid_time_step(const Model& model, const std::vector<RigidBody>& bodies, double safety) {
   double largest = 0, damped = 0; // 1/s2, 1/s
-  const std::vector<GivenStiffness> given = given_stiffness(model);
+  const std::vector<double> given = given_stiffness(model);
   std::vector<double> springs(model.node_mass.size(), 0.0); // N/m, of interfaces
   add_spring_row_sums(model, springs);
   for (const RigidBody& body : bodies) {
@@ -115,7 +102,7 @@ double rigid_time_step(const Model& model, const std::vector<RigidBody>& bodies,
     for (int t = model.surface.block_begin[body.block]; t < model.surface.block_begin[body.block + 1]; ++t) {
       const ContactTriangle& triangle = model.surface.triangles[t];
       if (triangle.face < 0)
-        stiffness += triangle.area * given[block.body].with(1 / triangle.compliance);
+        stiffness += triangle.area * std::max(1 / triangle.compliance, given[block.body]);
     }
     for (int node = block.node_begin; node < block.node_end; ++node) {
       const double away = (model.node_position[node] - block.mass.centroid).norm();
@@ -155,7 +142,7 @@ std::vector<double> closing_row_sums(const Model& model) {
 
 std::vector<double> impact_frequencies2(const Model& model) {
   const ContactSurface& surface = model.surface;
-  const std::vector<GivenStiffness> given = given_stiffness(model);
+  const std::vector<double> given = given_stiffness(model);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double of_rigid = infinite, of_others = infinite; // m/Pa, the least compliance
   for (const ContactTriangle& t : surface.triangles)
@@ -183,7 +170,7 @@ std::vector<double> impact_frequencies2(const Model& model) {
       compliance = std::min(compliance, triangle.compliance);
     }
     const double stiffness =
-        given[block.body].with(std::max(1 / (compliance + of_rigid), 1 / of_others)); // Pa/m
+        std::max({1 / (compliance + of_rigid), 1 / of_others, given[block.body]}); // Pa/m
     for (const auto& [plane, area] : faces)
       frequency2 = std::max(frequency2, stiffness * area / body.mass);
     for (const auto& [node, area] : corners)
@@ -237,13 +224,14 @@ double displacement_time_step(const Model& model, const State& state, const std:
 }
 
 void add_contact_row_sums(const Model& model, std::vector<double>& row_sums) {
-  const std::vector<GivenStiffness> given = given_stiffness(model);
+  const std::vector<double> given = given_stiffness(model);
   for (const ContactTriangle& t : model.surface.triangles)
     if (t.face < 0)
       for (const int node : t.nodes)
-        row_sums[node] += 4 * t.area / 3 *
-                          given[model.blocks[t.block].body].with(
-                              1 / t.compliance); // own springs, those of others, and edges
+        row_sums[node] +=
+            4 * t.area / 3 *
+            std::max(1 / t.compliance,
+                     given[model.blocks[t.block].body]); // own springs, those of others, and edges
 }
 
 } // namespace cdem
