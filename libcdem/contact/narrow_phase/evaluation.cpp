@@ -437,18 +437,14 @@ void Evaluation::set_stiffness(Contact& c, const Contact* old, const ContactLaw&
 
 void Evaluation::renew_area(Contact& c, double of, double on, double& friction) const {
   constexpr double least_change = 1e-3; // faces that vibrate keep their areas
-  const double grows = on / (c.area > 0 ? c.area : of), root = std::sqrt(grows),
-               pressed = c.effective_penetration(), stored = 0.5 * c.stiffness * pressed * pressed;
+  const double grows = on / (c.area > 0 ? c.area : of), pressed = c.effective_penetration();
   if (std::abs(grows - 1) < least_change)
     return;
+  friction -= 0.5 * (grows - 1) * c.stiffness * pressed * pressed;
   c.area = on;
   c.stiffness *= grows;
-  c.shear *= root;
-  c.damping *= root;
-  if (grows < 1 || (grows - 1) * stored > friction)
-    c.reference_penetration = std::max(0.0, c.depth - pressed / root);
-  const double left = c.effective_penetration();
-  friction += stored - 0.5 * c.stiffness * left * left;
+  c.shear *= std::sqrt(grows);
+  c.damping *= std::sqrt(grows);
 }
 
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
