@@ -84,6 +84,33 @@ TEST_CASE("a block whose tip reaches over the next base rests as if the tip were
   CHECK(cdem::energy(s.model, s.state).balance_error() < 1e-3);
 }
 
+TEST_CASE("a bar that turns on a smaller base without friction goes on turning, and sinks no further",
+          "[contact][cover]") {
+  const double gap = 1e-6, spin = 2 * pi; // m, rad/s
+  cdem::Joint smooth = soft(1e9);
+  smooth.friction_angle = 0;
+  System s(build({rigid_block("base", geom::grid({0.6, 0.5, 0.4}, {1, 1, 1}, {-0.3, -0.25, -0.4})),
+                  rigid_block("bar", geom::grid({1.2, 0.3, 0.3}, {1, 1, 1}, {-0.6, -0.15, gap}))},
+                 {{"base", "bar", smooth}}));
+  s.hold(body_of("base"), "xyz");
+  s.conditions.gravity = gravity();
+  cdem::RunOptions options;
+  options.duration = 0.1;
+  options.local_damping = 0.7;
+  s.run(options);
+  const double at_rest = 0.15 - centroid(s, 1).z();
+  REQUIRE(at_rest > 0);
+  const double inertia = rock().density * 1.2 * 0.3 * 0.3 * (1.2 * 1.2 + 0.3 * 0.3) / 12;
+  s.state.rigid[1].angular_momentum = cdem::three_of(Vec3(0, 0, inertia * spin));
+  options.duration = 1; // a turn
+  options.local_damping = 0;
+  for (int turn = 0; turn < 3; ++turn) {
+    s.run(options);
+    CHECK(0.15 - centroid(s, 1).z() < 2 * at_rest); // it hops
+  }
+  CHECK(cdem::kinetic_energy(s.model, s.state) == Approx(0.5 * inertia * spin * spin).epsilon(1e-3));
+}
+
 TEST_CASE("a block rests on two bases by the areas that it covers", "[contact][cover]") {
   const bool deforms = GENERATE(false, true);
   const double overlap = GENERATE(0.015, 0.3), wide = GENERATE(1.0, 3.0), gap = 1e-6;
