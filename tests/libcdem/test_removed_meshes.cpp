@@ -40,7 +40,7 @@ cdem::Simulation table(cdem::Element plate) {
   return s;
 }
 
-cdem::RunOptions lasting(double time) {
+cdem::RunOptions for_time(double time) {
   cdem::RunOptions options;
   options.duration = time;
   return options;
@@ -50,13 +50,13 @@ cdem::RunOptions lasting(double time) {
 
 TEST_CASE("what stood on a mesh that is removed falls freely, and the fix of it ends", "[carry]") {
   cdem::Simulation s = table(GENERATE(cdem::Element::rigid, cdem::Element::finite_volume));
-  s.run(lasting(0.01));
+  s.run(for_time(0.01));
   REQUIRE(s.contacts().deepest > 0); // they have met
   CHECK(s.remove(body_of("plate")) == 1);
   std::map<std::string, double> before;
   for (const char* name : {"blocks", "cube"})
     before[name] = s.mean("velocity.z", body_of(name));
-  s.run(lasting(0.1));
+  s.run(for_time(0.1));
   for (const char* name : {"blocks", "cube"})
     CHECK(s.mean("velocity.z", body_of(name)) == Approx(before[name] - 9.81 * 0.1).margin(0.02));
   CHECK(s.energy().balance_error() < 1e-3);
@@ -94,7 +94,7 @@ TEST_CASE("a model that has lost its only plastic body is saved and comes back",
   cdem::Simulation s = build();
   s.gravity(gravity());
   CHECK(s.remove(body_of("soil")) == 1);
-  s.run(lasting(0.001));
+  s.run(for_time(0.001));
   cdem::Simulation again = build();
   again.restore(s.save());
   CHECK(again.state_hash() == s.state_hash());
