@@ -10,7 +10,7 @@ namespace cdem {
 // frames.begin; nine numbers each, column by column. u: displacements.
 void interface_rotations(const SpringBatches&, Range frames, const Node* displacement, double* rotation);
 
-// What contacts need in a step in time, of all springs of the model.
+// Arrays of all springs of the model that contacts need in a step in time.
 struct ContactsInTime {
   const double* rest_rate = nullptr; // as in BondWork, as all of these
   double *usual_force = nullptr, *rested = nullptr;

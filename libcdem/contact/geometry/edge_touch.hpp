@@ -26,8 +26,8 @@ struct EdgeStretch {
   geom::Vec3 place;  // m
   double lever = 0;  // m, of the moment on the first edge about the normal, over F
   double depth = 0;  // m, 2 U / F
-  double share =
-      0; // of the stiffness of a crossing: F^2 / 2 U, where the square of the depth is twice the area
+  // Part of the stiffness of a crossing: F^2 / 2 U, where the square of the depth is twice the area.
+  double share = 0;
   double measure = 0; // that square over twice the area, as the two wedges stand now
 };
 

@@ -107,7 +107,7 @@ Eigen::Matrix2d spread_of(const geom::Polygon& polygon, double area) {
   return sum / area;
 }
 
-// m, of the first face below the second, at a place; below 0 they are apart.
+// m, of a place below the face g; less than 0 above it.
 double depth_below(const Model& model, const State& state, const geom::Vec3& place, const FlatFace& g,
                    const geom::Vec3& normal) {
   return (place_of(model, state, g.outline[0]) - place).dot(normal);

@@ -69,7 +69,7 @@ private:
   // Sets stiffness and area of a contact. old: the same one before the step, null where there was none; of: m2, without
   // another face; on: m2, for which a new one stands on a flat face; 0: on another.
   void set_stiffness(Contact&, const Contact* old, const ContactLaw&, double of, double on) const;
-  // Of one that stands on a flat face for another area now, at the same depth. What it stores less is friction, J.
+  // Gives a contact on a flat face the area for which it stands now, at the same depth. Friction gets what it stores less, J.
   void renew_area(Contact&, double of, double on, double& friction) const;
   bool renews_areas() const; // in this step, of contacts that there are
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.

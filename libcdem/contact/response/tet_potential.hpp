@@ -79,7 +79,7 @@ CDEM_INLINE V parted_by_plane(const DepthsInTet<V>& at) {
   return apart;
 }
 
-// Of U, over that of a corner. The faces of the source are the planes of the target: as many.
+// Shares of U, over that of a corner. The faces of the source are the planes of the target: as many.
 inline constexpr double edge_share = 0.5, middle_share = 6;
 
 // m, min over k of D_k in the middle of a face of the source.
