@@ -1,7 +1,7 @@
 #include "libcdem/bond/cohesive_faces.hpp"
 
 #include "libcdem/bond/cracking_faces.hpp"
-#include "libcdem/bond/leaving_faces.hpp"
+#include "libcdem/bond/end_of_face.hpp"
 #include "libcdem/parallel/simd.hpp"
 
 #include <algorithm>
@@ -111,6 +111,9 @@ void cohesive_face_forces(const FaceBatch* batches, int faces, const FaceMotion&
       hand_over(lane, at, sums);
     }
   }
+  if (law.hands_over && law.hand_over_due)
+    take_back(batches, faces, motion, state, sums,
+              [&](int face, const FaceFrame&) { EndOfFace(chunk, face).come_back(); });
 }
 
 } // namespace cdem

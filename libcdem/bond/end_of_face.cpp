@@ -16,8 +16,14 @@ FaceFrame EndOfFace::before() const {
 double EndOfFace::separate(const std::array<geom::Vec3, 3>& pull) {
   const FaceFrame then = before();
   double taken = of_.stored(now_);
-  for (int point = 0; point < 3; ++point) {
+  for (int point = 0; point < 3; ++point)
     taken -= 0.5 * pull[point].dot(now_.gap[point] - then.gap[point]);
+  come_back();
+  return taken;
+}
+
+void EndOfFace::come_back() {
+  for (int point = 0; point < 3; ++point) {
     const geom::Vec3 gap = now_.in_axes(now_.gap[point]);
     of_.face.offset[point] = of_.face.start[point] = {};
     of_.face.slip[point] = {gap.x(), gap.y(), std::min(0.0, gap.z())};
@@ -25,7 +31,6 @@ double EndOfFace::separate(const std::array<geom::Vec3, 3>& pull) {
   }
   of_.face.plane = {0, 0, 1};
   of_.state.stage[of_.lane] = FaceStage::separated;
-  return taken;
 }
 
 void EndOfFace::part() {

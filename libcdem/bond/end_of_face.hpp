@@ -1,4 +1,5 @@
-// A face of a cohesive body without strength, whose springs act for the last time: it separates, parts, or leaves.
+// A face of a cohesive body without strength, whose springs act for the last time: it separates, parts, or leaves; and one that
+// has parted and comes back.
 #pragma once
 
 #include "libcdem/bond/cracking_faces.hpp"
@@ -18,7 +19,8 @@ public:
   // are further apart. Returns what breaking takes, J.
   double separate(const std::array<geom::Vec3, 3>& pull);
 
-  void part(); // nothing is between its sides any more
+  void part();      // nothing is between its sides any more
+  void come_back(); // they are a contact again, as after separate
 
   // Contacts around it may begin; its springs let go by and by. Returns what is lost, J.
   double leave();

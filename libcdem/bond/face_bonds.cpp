@@ -225,6 +225,14 @@ void face_bond_forces(const FaceBatch* batches, std::int64_t count, int faces, c
                       Node* total, FaceSums& sums, ReadAhead& ahead) {
   simd::best_width<face_bond_kernel<Oct>, face_bond_kernel<simd::Quad>>(
       batches, count, faces, motion, law, breaking, state, slips, total, sums, ahead);
+  if (law.hands_over && law.hand_over_due)
+    take_back(batches, faces, motion, state, sums, [&](int face, const FaceFrame& now) {
+      FaceSlip slip; // where it stands it carries no shear
+      for (int point = 0; point < 3; ++point)
+        for (int axis = 0; axis < 2; ++axis)
+          slip.value[point][axis] = now.in_axes(now.gap[point])[axis];
+      slips[state[face / lanes].slip].set(face % lanes, slip);
+    });
 }
 
 } // namespace cdem

@@ -61,7 +61,7 @@ struct FaceSums {
   // A face, batch * lanes + lane from the range's first batch on, that is closed and has slid further than it is long;
   // -1: none. Only where nothing takes it over.
   std::int64_t astray = -1;
-  bool hands_over = false; // some face begins to leave, or has left, in this step
+  bool hands_over = false; // some face begins to leave, has left, or is taken back, in this step
 };
 
 // What the nodes of a chunk do, one entry for each of its places.

@@ -23,6 +23,7 @@
 //                            left is a contact on the face's own plane
 //   cracking,    parted      D = 1, and its sides have opened or slid away from each     the same; bond/leaving_faces.hpp
 //   separated                other: the contact of the surface takes over
+//   parted       separated   its sides stand open where they met                         bond/leaving_faces.hpp
 #pragma once
 
 #include "libcdem/bond/face_frame.hpp"

@@ -26,6 +26,13 @@ bool is_gone(const FaceFrame& f, double size) {
   });
 }
 
+bool is_back(const FaceFrame& f, double size) {
+  return !f.torn && std::all_of(f.gap.begin(), f.gap.end(), [&](const geom::Vec3& gap) {
+    const double opening = f.in_axes(gap)[2];
+    return opening > 0 && opening < back_from * size && slid_by(f, gap) < slid_back_from * size;
+  });
+}
+
 double leave(const FaceFrame& f, double size, double energy, int lane, FaceStateBatch& state,
              FaceSums& sums) {
   const bool open =

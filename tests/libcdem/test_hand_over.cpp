@@ -249,6 +249,62 @@ TEST_CASE("hand-over: a part that slides off a broken joint meets nothing behind
   CHECK(found.across < 0.02 * rock().density * upper.prod() * pull);
 }
 
+TEST_CASE("hand-over: a part that comes back to where it was torn off slides as if it had never left",
+          "[contact][hand_over][back]") {
+  cdem::Bonding bonding = between_halves();
+  bonding.kind = GENERATE(cdem::BondKind::springs, cdem::BondKind::cohesive);
+  const double lift = GENERATE(0.02, 0.5) * edge; // m
+  CAPTURE(bonding.is_cohesive(), lift);
+  cdem::Joint smooth = halves_joint();
+  smooth.friction_angle = 0;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("unit", two_parts(0), bonding, soft_rock(1e9), smooth)};
+  spec.pairs = {{"unit", "unit", friction(0)}};
+  cdem::Simulation torn(spec, 1, nullptr);
+  torn.break_bonds(cdem::Selection::on_plane(geom::Plane::through({0, 0, lower.z()}, {0, 0, 1})));
+  System s(torn.model());
+  s.state = torn.state();
+  s.hold(cdem::Selection::where([](const Vec3& x) { return x.z() < 1e-6; }, "the foot"), "xyz");
+  const auto faces_left = [&] {
+    int count = 0;
+    each_face_spring(s.model.mesh, [&](const cdem::MeshChunk&, const cdem::FaceSpringPlace& at) {
+      count += at.point == 0 && cdem::handed_over(s.state.faces[at.batch], at.lane) ? 1 : 0;
+    });
+    return count;
+  };
+  const auto run = [&](double duration, double damping = 0) {
+    cdem::RunOptions options;
+    options.duration = duration; // s
+    options.local_damping = damping;
+    s.run(options);
+  };
+  const auto fly = [&](double way) { // m, up, without any force; then it stands
+    constexpr double pace = 0.5;     // m/s
+    const auto move = [&](double speed) {
+      for (const geom::Tet& tet : s.model.tets)
+        for (const int n : tet)
+          if ((s.model.node_position[tet[0]] + s.model.node_position[tet[1]] + s.model.node_position[tet[2]] +
+               s.model.node_position[tet[3]])
+                  .z() > 4 * lower.z())
+            s.state.velocity[n].z = speed;
+    };
+    move(way > 0 ? pace : -pace);
+    run(std::abs(way) / pace);
+    move(0);
+  };
+  fly(lift);
+  CHECK(faces_left() > 0);
+  fly(-0.999 * lift);
+  CHECK(faces_left() == 0);
+  constexpr double angle = 5 * degree, duration = 0.01; // s
+  s.conditions.gravity = gravity(pull_at(0));
+  run(duration, 0.5);
+  s.conditions.gravity = gravity(pull_at(angle));
+  run(duration);
+  CHECK(speed_of_upper(s, straight) == Approx(pull * std::sin(angle) * duration).epsilon(0.01));
+  CHECK(cdem::energy(s.model, s.state).balance_error() < 1e-2);
+}
+
 TEST_CASE("hand-over: a joint with a friction of its own keeps it", "[contact][hand_over][regions]") {
   System s = leaning_on_its_joint(GENERATE(0.0, 0.15));
   CHECK(slide(s, straight).acceleration == Approx(slides_at()).epsilon(0.09));
