@@ -245,6 +245,29 @@ TEST_CASE("contact law: a relaxation finds a contact at rest as deep as it is", 
   CHECK(c.damping == 0);
 }
 
+TEST_CASE("a spring that closes and opens within steps keeps the energy of an impact to the fourth order",
+          "[contact]") {
+  const double omega_step = GENERATE(0.05, 0.1, 0.2, 0.3), mass = law.kn, speed = 1; // omega = 1 / s
+  for (double phase = 0.05; phase < 1; phase += 0.1) {
+    CAPTURE(omega_step, phase);
+    double velocity = speed, lost = 0; // of what it meets
+    Contact c;
+    c.normal = Vec3::UnitZ();
+    for (double depth = -phase * speed * omega_step; velocity > 0 || depth > 0;) {
+      const double moved = velocity * omega_step;
+      depth += moved;
+      if (depth <= 0)
+        continue;
+      ContactMotion m = motion(depth, {0, 0, -moved});
+      m.part_of_step = cdem::part_of_step(depth, moved);
+      lost += advance(c, law, m).friction;
+      velocity -= part_borne(m) * normal_force(c, law) / mass * omega_step;
+    }
+    CHECK(velocity * velocity == Approx(speed * speed).epsilon(std::pow(omega_step, 4)));
+    CHECK(lost == 0);
+  }
+}
+
 TEST_CASE("contact law: the reference follows a jump of the depth, and no motion", "[contact][law]") {
   Contact old = pressed(3e-4);
   old.reference_penetration = 1e-4;

@@ -1,5 +1,6 @@
 // A contact after the step: its motion, and what follows from it by the contact law.
 #include "libcdem/contact/broad_phase/search.hpp"
+#include "libcdem/contact/data/row_owner.hpp"
 #include "libcdem/contact/narrow_phase/evaluation.hpp"
 #include "libcdem/contact/response/block_motion.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
@@ -108,8 +109,14 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   motion.in_relaxation = !work_.damps;
   ContactForce force;
   const bool own = old && key(*old) == key(c);
+  const auto set_part_of_step = [&](double pressed) {
+    if (both_rigid(model_, from.block, to.block))
+      motion.part_of_step = part_of_step(
+          pressed, 2 * state_.velocity_lag * (velocity.dot(motion.normal) + motion.lever * motion.spin_past));
+  };
   if (own && work_.step == 0 && old->target == c.target) {
     c = *old; // nothing moved
+    set_part_of_step(c.effective_penetration());
   } else {
     // Under another stiffness it stores as much.
     const double grows = own && old->stiffness > 0 ? std::sqrt(c.stiffness / old->stiffness) : 1;
@@ -143,6 +150,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
         go_on_if_opened(c);
       set_approach(c, law, pair, arms, velocity, from, to, motion);
     }
+    set_part_of_step(pressed_now(c, motion));
     const ContactLoss loss = advance(c, law, motion);
     force.friction += loss.friction;
     force.damping = loss.damping;
@@ -150,7 +158,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   force.arms = arms;
   force.source_block = from.block;
   force.target_block = to.block;
-  force.normal = normal_force(c, law) * c.normal;
+  force.normal = part_borne(motion) * normal_force(c, law) * c.normal;
   force.shear = c.shear;
   force.moment = motion.lever * force.normal;
   force.stiffness = law.kn * (1 + part_damped(c, law)) + law.ks;

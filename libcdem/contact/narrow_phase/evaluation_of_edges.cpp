@@ -210,7 +210,7 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
   motion.depth = touch.depth;
   const double spin_e = spin_of(e), spin_f = spin_of(f);
   motion.turned = 0.5 * work_.step * (spin_e + spin_f);
-  motion.turned_past = work_.step * (spin_e - spin_f);
+  motion.spin_past = spin_e - spin_f;
   const Law& law = law_between(e.triangles, f.triangles);
   const Contact* old = before(c);
   std::optional<Contact> beyond;

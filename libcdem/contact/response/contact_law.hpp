@@ -30,6 +30,11 @@
 //
 // Where both bodies are rigid, and between tetrahedra of one body, b is r and D is 0 for e = 1.
 //
+// A contact of rigid bodies bears (1 + t) / 2 of Fn + D, with t = p / |u| up to 1 and u its motion along the normal in the last
+// step: t is less than 1 only where it has closed within that step, or is about to open within the next. Its force acts over
+// half of either step, so its work there is kn p |u| (1 + t) / 2 = kn p^2 / 2 + kn p |u| / 2: what the spring stores, and the
+// half step in which it is pressed throughout.
+//
 // A sliding contact does not feel a change of its normal force at once (Prakash 1998, J. Tribol. 120, 97-102; Cochard and
 // Rice 2000, J. Geophys. Res. 105, 25891-25907). If it did, friction would feed the vibrations of a deformable body that
 // slides, and they would take a part of its friction (Adams 1998, J. Appl. Mech. 65, 470-475). So where a body deforms and neither is broken,
@@ -79,7 +84,7 @@ struct ContactMotion {
   double depth = 0;                       // m, now
   geom::Vec3 slid = geom::Vec3::Zero();   // m, of the source past the target
   double turned = 0;                      // rad, of the two faces about the normal
-  double turned_past = 0;                 // rad, of the source past the target about the normal
+  double spin_past = 0;                   // rad/s, of the source past the target about the normal
   double lever = 0;                       // m, of a moment about the normal, over the normal force beside it
   bool along_stretch = false;             // part of a stretch that carries, which may grow in a jump
   double step = 0;                        // s, in which that happened
@@ -87,11 +92,12 @@ struct ContactMotion {
   double acceleration = 0;                // m/s2, a of restitution
   double held_at_most = 0;                // part of the damping force that may act, part_held
   double omega_step = 0;                  // omega times the step
+  double part_of_step = 1;                // t above
   bool shares_friction = false;           // one of its two bodies deforms, and neither is broken
   double felt_over_usual = 1;             // these two means, summed over the contacts between its bodies
   bool in_relaxation = false;             // its steps are no times, and it finds the contact at rest
 
-  double opened() const { return slid.dot(normal) + lever * turned_past; } // m
+  double opened() const { return slid.dot(normal) + lever * step * spin_past; } // m
 };
 
 // What a contact loses in a step, J, >= 0.
@@ -194,8 +200,11 @@ inline double advance_damping(Contact& c, const ContactLaw& law, const ContactMo
   else
     c.damping = closing < 0 ? -stiffness * pressed * std::min(-m.approach, m.held_at_most) : 0;
   return 0.5 * before * (before > 0 ? std::max(closing, -q) : closing) +
-         0.5 * c.damping * (c.damping > 0 ? std::max(closing, -q) : closing) + stored -
-         stored_by_damping(c, pressed_by_approach(c, law, part));
+         0.5 * c.damping *
+             (closing > 0     ? m.part_of_step * closing
+              : c.damping > 0 ? std::max(closing, -q)
+                              : closing) +
+         stored - stored_by_damping(c, pressed_by_approach(c, law, part));
 }
 
 // N, of the contact on its source.
@@ -203,10 +212,20 @@ inline double normal_force(const Contact& c, const ContactLaw& law) {
   return law.kn * c.effective_penetration() + c.damping;
 }
 
+// t, of a contact that has moved that far along its normal in the last step, m.
+inline double part_of_step(double pressed, double moved) {
+  return pressed < std::abs(moved) ? pressed / std::abs(moved) : 1;
+}
+
+// Part of the normal force that acts.
+inline double part_borne(const ContactMotion& m) {
+  return 0.5 * (1 + m.part_of_step);
+}
+
 // Advances the means that friction follows, of a contact that is as deep as it is now. While it is open it keeps them: so the
 // mean over the time in which it carries is that of the normal force, however much it bounces.
 inline void advance_felt_force(Contact& c, const ContactLaw& law, const ContactMotion& m) {
-  const double force = normal_force(c, law);
+  const double force = part_borne(m) * normal_force(c, law);
   if (!m.shares_friction || m.in_relaxation)
     c.usual_force = c.felt_force = force;
   else if (c.effective_penetration() > 0) {
@@ -217,7 +236,7 @@ inline void advance_felt_force(Contact& c, const ContactLaw& law, const ContactM
 
 // N of friction.
 inline double felt_by_friction(const Contact& c, const ContactLaw& law, const ContactMotion& m) {
-  const double force = normal_force(c, law);
+  const double force = part_borne(m) * normal_force(c, law);
   if (!m.shares_friction)
     return force;
   const double rests = part_at_rest(c);
