@@ -224,8 +224,9 @@ public:
   }
 
   void take_contacts(double longest) override {
-    if (keeps_energy_of_impacts_)
-      longest = std::min(longest, stage_.longest_step_of_flight());
+    if (options_.time_step == 0) // else impacts are as coarse as the step that the user has chosen
+      longest = std::min(longest,
+                         stage_.longest_step_of_flight(options_.local_damping != 0 || !options_.damp_flight));
     if (has_crack_pressure_)
       longest = std::min(longest, options_.safety * stage_.update_crack_pressures(stable_of_mesh_));
     shorten(longest);
@@ -360,9 +361,6 @@ private:
   Clock clock_;
   std::vector<double> viscous_ = viscous_forces(model_);
   const bool chooses_step_ = options_.time_step == 0 && !scaled_.on() && !model_.frames.empty();
-  // Where damping takes the energy anyway, and where the user has chosen the step, impacts are as coarse as the step.
-  const bool keeps_energy_of_impacts_ =
-      options_.local_damping == 0 && options_.damp_flight && options_.time_step == 0;
   const bool has_crack_pressure_ = !context_.conditions.crack_pressures.empty();
   // s; only where a fluid in a crack asks for it: it reads the whole model, whose other parts a rank has given back.
   double stable_of_mesh_ = has_crack_pressure_ ? stable_of_mesh() : 0;

@@ -57,13 +57,14 @@ double ContactUpdate::longest_step(const StageContext& context, const Workspace&
       displacement_time_step(context.model, context.state, rigid_reach_));
 }
 
-double ContactUpdate::longest_step_of_flight(const StageContext& context, const Workspace& work) const {
+double ContactUpdate::longest_step_of_flight(const StageContext& context, const Workspace& work,
+                                             double safety, bool damped) const {
   if (impact_frequency2_.empty())
     return std::numeric_limits<double>::infinity();
   const std::optional<Gravity>& gravity = context.conditions.gravity;
   return flight_time_step(
       context.model, context.state, work.contact.loads,
-      {impact_frequency2_, work.resolved.rigid, gravity ? gravity->acceleration.norm() : 0});
+      {impact_frequency2_, work.resolved.rigid, gravity ? gravity->acceleration.norm() : 0, safety, damped});
 }
 
 void ContactUpdate::go_on(ContactWork& work) {

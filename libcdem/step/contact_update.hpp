@@ -19,7 +19,7 @@ public:
   // contacts. Throws SolutionError where one has gone too deep since the last call.
   double longest_step(const StageContext&, const Workspace&, double safety, const StageStep&);
   // The same for rigid bodies that are about to meet others: such that an impact keeps its energy.
-  double longest_step_of_flight(const StageContext&, const Workspace&) const;
+  double longest_step_of_flight(const StageContext&, const Workspace&, double safety, bool damped) const;
 
   // As a stage that goes on: State::contacts holds all there are, and no fragment is new.
   static void go_on(ContactWork&);

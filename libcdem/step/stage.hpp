@@ -70,7 +70,9 @@ public:
   // Steps until the procedure is over. Throws SolutionError, Interrupted.
   void make_steps(Procedure&);
   // For procedures. s, for rigid bodies in flight (contact/response/contact_bounds.hpp); when contacts are known.
-  double longest_step_of_flight() const { return contacts_.longest_step_of_flight(context_, work); }
+  double longest_step_of_flight(bool damped) const {
+    return contacts_.longest_step_of_flight(context_, work, safety, damped);
+  }
   // Pressures in cracks at this time. Returns the longest stable step, s, that pumped fluids leave to a mesh whose own is
   // `stable`.
   double update_crack_pressures(double stable);

@@ -20,21 +20,42 @@ constexpr double touching_part = 0.02;
 // of the contacts takes up an impact. At 0.9 an impact takes three steps and returns 0.75 to 1.5 of the energy. At 0.5
 // it returns the energy within a tenth.
 constexpr double most_of_rigid = 0.5;
-// Fraction of the stable step of an impact, for rigid bodies in flight. Its square is the part of the energy that an
-// impact may gain or lose.
-constexpr double most_of_impact = 0.1;
+// Of the step of rigid bodies, for those in flight: omega dt of an impact is 0.2, and it gains at most (omega dt)^4 of its energy.
+constexpr double flight_part = 0.2;
 // Parts of a unit normal, and of a block's size, in which triangles of one plane agree.
 constexpr double plane_grid = 500;
 // Largest motion in a step, over a tet's height.
 constexpr double way_part = 0.1;
 
-// Pa/m, per body: the stiffest that any of its contacts is given to be; 0: all are as stiff as their tets.
-std::vector<double> given_stiffness(const Model& model) {
-  std::vector<double> stiffest(model.bodies.size(), 0.0);
+// How stiff the laws of a body's contacts say that they are.
+struct GivenStiffness {
+  double stiffest = 0;                // Pa/m
+  bool by_all = true;                 // else some are as stiff as the tets beside them
+  double with(double of_tets) const { // Pa/m, at most
+    return by_all && stiffest > 0 ? stiffest : std::max(of_tets, stiffest);
+  }
+};
+
+std::vector<GivenStiffness> given_stiffness(const Model& model) { // by body
+  std::vector<GivenStiffness> given(model.bodies.size());
+  const auto add = [&](int body, int number) {
+    const Joint& law = model.joints[number];
+    GivenStiffness& of = given[body];
+    of.by_all = of.by_all && law.normal_stiffness;
+    of.stiffest = std::max({of.stiffest, law.normal_stiffness.value_or(0), law.shear_stiffness.value_or(0)});
+  };
   for (const auto& [bodies, law] : model.surface.joint)
     for (const int body : {bodies.first, bodies.second})
-      stiffest[body] = std::max(stiffest[body], model.joints[law].normal_stiffness.value_or(0));
-  return stiffest;
+      add(body, law);
+  for (const auto& [body, law] : model.surface.within)
+    add(body, law);
+  for (const BlockPairLaw& pair : model.surface.pairs)
+    for (const int block : pair.blocks)
+      add(model.blocks[block].body, pair.joint);
+  for (const ContactTriangle& t : model.surface.triangles)
+    if (t.left >= 0)
+      add(model.blocks[t.block].body, t.left);
+  return given;
 }
 
 struct ClosingStiffness {
@@ -42,12 +63,12 @@ struct ClosingStiffness {
 };
 
 ClosingStiffness closing_stiffness(const Model& model) {
-  const std::vector<double> given = given_stiffness(model);
+  const std::vector<GivenStiffness> given = given_stiffness(model);
   std::vector<double> contact(model.node_mass.size(), 0.0);
   for (const ContactTriangle& t : model.surface.triangles)
     if (t.face < 0 && model.blocks[t.block].rigid < 0)
       for (const int node : t.nodes)
-        contact[node] += 2 * t.area / 3 * given[model.blocks[t.block].body];
+        contact[node] += 2 * t.area / 3 * given[model.blocks[t.block].body].stiffest;
   std::vector<double> elements = element_row_sums(model);
   std::vector<double> springs(model.node_mass.size(), 0.0);
   add_spring_row_sums(model, springs);
@@ -92,7 +113,7 @@ double rigid_time_step(const Model& model, double safety) {
 
 double rigid_time_step(const Model& model, const std::vector<RigidBody>& bodies, double safety) {
   double largest = 0, damped = 0; // 1/s2, 1/s
-  const std::vector<double> given = given_stiffness(model);
+  const std::vector<GivenStiffness> given = given_stiffness(model);
   std::vector<double> springs(model.node_mass.size(), 0.0); // N/m, of interfaces
   add_spring_row_sums(model, springs);
   for (const RigidBody& body : bodies) {
@@ -102,7 +123,7 @@ double rigid_time_step(const Model& model, const std::vector<RigidBody>& bodies,
     for (int t = model.surface.block_begin[body.block]; t < model.surface.block_begin[body.block + 1]; ++t) {
       const ContactTriangle& triangle = model.surface.triangles[t];
       if (triangle.face < 0)
-        stiffness += triangle.area * std::max(1 / triangle.compliance, given[block.body]);
+        stiffness += triangle.area * given[block.body].with(1 / triangle.compliance);
     }
     for (int node = block.node_begin; node < block.node_end; ++node) {
       const double away = (model.node_position[node] - block.mass.centroid).norm();
@@ -142,7 +163,7 @@ std::vector<double> closing_row_sums(const Model& model) {
 
 std::vector<double> impact_frequencies2(const Model& model) {
   const ContactSurface& surface = model.surface;
-  const std::vector<double> given = given_stiffness(model);
+  const std::vector<GivenStiffness> given = given_stiffness(model);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   double of_rigid = infinite, of_others = infinite; // m/Pa, the least compliance
   for (const ContactTriangle& t : surface.triangles)
@@ -170,7 +191,7 @@ std::vector<double> impact_frequencies2(const Model& model) {
       compliance = std::min(compliance, triangle.compliance);
     }
     const double stiffness =
-        std::max({1 / (compliance + of_rigid), 1 / of_others, given[block.body]}); // Pa/m
+        given[block.body].with(std::max(1 / (compliance + of_rigid), 1 / of_others)); // Pa/m
     for (const auto& [plane, area] : faces)
       frequency2 = std::max(frequency2, stiffness * area / body.mass);
     for (const auto& [node, area] : corners)
@@ -184,20 +205,24 @@ std::vector<double> impact_frequencies2(const Model& model) {
 
 double flight_time_step(const Model& model, const State& state, const ContactLoads& loads,
                         const Flight& flight) {
-  double flying = 0, any = 0; // 1/s2, the largest
+  double fast = 0, slow = 0, any = 0; // 1/s2, the largest
   for (std::size_t i = 0; i < model.rigid.size(); ++i) {
     const double frequency2 = flight.impact_frequency2[i];
     if (!flight.held.empty() && flight.held[i])
       continue;
     any = std::max(any, frequency2);
+    if (loads.on_rigid[i].touches)
+      continue;
     const double spin = vec(state.rigid[i].angular_momentum).norm() / model.rigid[i].principal.minCoeff();
     const double speed = vec(state.rigid[i].velocity).norm() + spin * model.blocks[model.rigid[i].block].size;
     // Pressed by its weight it sinks in by g / w^2 and moves at g / w at most.
-    if (!loads.on_rigid[i].touches && speed * std::sqrt(frequency2) > flight.gravity)
-      flying = std::max(flying, frequency2);
+    double& of = !flight.damped && speed * std::sqrt(frequency2) > flight.gravity ? fast : slow;
+    of = std::max(of, frequency2);
   }
-  return flying > 0 ? most_of_impact * stable_time_step(flying + any, 0)
-                    : std::numeric_limits<double>::infinity();
+  const auto stable = [&](double frequency2) {
+    return frequency2 > 0 ? stable_time_step(frequency2 + any, 0) : std::numeric_limits<double>::infinity();
+  };
+  return for_rigid(flight.safety) * std::min(flight_part * stable(fast), stable(slow));
 }
 
 std::vector<double> reaches_of_rigid(const Model& model, const State& state) {
@@ -224,14 +249,13 @@ double displacement_time_step(const Model& model, const State& state, const std:
 }
 
 void add_contact_row_sums(const Model& model, std::vector<double>& row_sums) {
-  const std::vector<double> given = given_stiffness(model);
+  const std::vector<GivenStiffness> given = given_stiffness(model);
   for (const ContactTriangle& t : model.surface.triangles)
     if (t.face < 0)
       for (const int node : t.nodes)
-        row_sums[node] +=
-            4 * t.area / 3 *
-            std::max(1 / t.compliance,
-                     given[model.blocks[t.block].body]); // own springs, those of others, and edges
+        row_sums[node] += 4 * t.area / 3 *
+                          given[model.blocks[t.block].body].with(
+                              1 / t.compliance); // own springs, those of others, and edges
 }
 
 } // namespace cdem

@@ -40,14 +40,16 @@ double displacement_time_step(const Model&, const State&, const std::vector<doub
 // 1/s2, per rigid body: the square of the circular frequency at which it bounces, its stiffest flat face or corner pressed.
 std::vector<double> impact_frequencies2(const Model&);
 
-// s: a step for rigid bodies in flight in which an impact gains or loses at most 1 % of its energy. A contact of stiffness k that
-// closes or opens within a step dt at the speed v changes the energy by up to k (v dt)^2 / 8, a part k dt^2 / 4 m of the body's.
+// s: a step for rigid bodies that are about to meet others: half of the stable one of an impact, and a tenth of it for those in
+// flight, so that an impact keeps its energy: what contact_law.hpp leaves of its error is (omega dt)^4 of it.
 struct Flight {
   const std::vector<double>& impact_frequency2;       // 1/s2, per rigid body
   const std::vector<std::optional<geom::Vec3>>& held; // ResolvedConditions::rigid
   double gravity = 0;                                 // m/s2
+  double safety = 1;
+  bool damped = false; // all impacts lose energy by local damping
 };
-// Infinite where no rigid body that moves is free of contacts, or all of those hop lower than their weight presses them together.
+// A body is in flight if it is not damped and hops higher than its weight presses it in. Infinite where all touch or are held.
 double flight_time_step(const Model&, const State&, const ContactLoads&, const Flight&);
 
 // Adds to the row sums what contacts may at most add at the surface, when all of it is pressed by its like, N/m.
