@@ -34,8 +34,8 @@ struct Progress {
 };
 
 // What the thread that runs a script is about, for who waits for it to stop: a stage comes to a step, what is saved
-// comes to its end, and anything else may take for ever.
-enum class Activity { script, stage, saving };
+// comes to its end, as does a model that becomes another one, and anything else may take for ever.
+enum class Activity { script, stage, saving, changing };
 
 class Observer {
 public:
@@ -71,6 +71,7 @@ public:
     if (observer_)
       observer_->doing(before_);
   }
+  Activity before() const { return before_; }
   Doing(const Doing&) = delete;
   Doing& operator=(const Doing&) = delete;
 

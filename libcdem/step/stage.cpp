@@ -128,7 +128,7 @@ Stage::Stage(const StageContext& context, std::string kind, double run_away, Kep
 }
 
 Stage::~Stage() {
-  if (shares_.left_alone())
+  if (shares_.left_alone() || !work.shared) // change_nodes has failed
     return;
   synchronise();
   if (shares_.has_failed()) // the last good state is written

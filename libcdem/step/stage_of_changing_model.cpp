@@ -78,8 +78,10 @@ bool Stage::join_nodes() {
   return any;
 }
 
-// Goes on with the model and state in which nodes have been freed or joined.
+// Goes on with the model and state in which nodes have been freed or joined. A stop waits until that is done: functions of the
+// script are asked which nodes conditions mean.
 void Stage::change_nodes(Freed freed) {
+  const Doing changes(&context_.observer, Activity::changing);
   const Model& model = context_.model;
   State& state = context_.state;
   const bool near_known = work.near.crack_known;
@@ -95,7 +97,12 @@ void Stage::change_nodes(Freed freed) {
   if (context_.renumbered)
     context_.renumbered(freed.old_node);
   Workspace before = std::move(work);
-  work = Workspace(model, state, context_.conditions);
+  try {
+    work = Workspace(model, state, context_.conditions);
+  } catch (...) { // such a function has failed: what is written then is of this model
+    context_.last_good = state;
+    throw;
+  }
   keep_flow_patterns(flows, new_node, work.resolved);
   work.damped = before.damped;
   work.strain_step = before.strain_step;

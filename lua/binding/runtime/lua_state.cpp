@@ -123,7 +123,7 @@ LuaState::~LuaState() {
 
 bool LuaState::stop_wanted() {
   const auto& observer = session.settings.observer;
-  if (observer && observer->stop_requested()) {
+  if (!holds_stops_ && observer && observer->stop_requested()) {
     if (!interrupted)
       session.checkpoints.stop();
     interrupted = true;
@@ -255,7 +255,9 @@ void LuaState::call(lua_State* L, int arguments, int results) {
   lua_State* const caller = current;
   current = L;
   const Doing callback(session.settings.observer.get(), Activity::script);
+  holds_stops_ = callback.before() == Activity::changing;
   const int status = lua_pcall(L, arguments, results, handler);
+  holds_stops_ = false;
   current = caller;
   lua_remove(L, handler);
   if (status != LUA_OK)
