@@ -57,7 +57,7 @@ double choose_time_step(const StageContext& context, const RunOptions& options) 
   if (options.time_step > most)
     throw geom::InputError(
         "time_step", fmt::format("{:g}", options.time_step),
-        fmt::format("at most {:.4g} s, half the stable step of rigid bodies that touch", most),
+        fmt::format("at most {:.4g} s, 0.3 of the stable step of rigid bodies that touch", most),
         "leave it out to use the usual one");
   return options.time_step > 0 ? options.time_step : usual;
 }

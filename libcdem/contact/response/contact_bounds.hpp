@@ -40,7 +40,7 @@ double displacement_time_step(const Model&, const State&, const std::vector<doub
 // 1/s2, per rigid body: the square of the circular frequency at which it bounces, its stiffest flat face or corner pressed.
 std::vector<double> impact_frequencies2(const Model&);
 
-// s: a step for rigid bodies that are about to meet others: half of the stable one of an impact, and a tenth of it for those in
+// s: a step for rigid bodies that are about to meet others: 0.3 of the stable one of an impact, and a fifth of that for those in
 // flight, so that an impact keeps its energy: what contact_law.hpp leaves of its error is (omega dt)^4 of it.
 struct Flight {
   const std::vector<double>& impact_frequency2;       // 1/s2, per rigid body
