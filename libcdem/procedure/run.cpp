@@ -53,11 +53,11 @@ double choose_time_step(const StageContext& context, const RunOptions& options) 
     throw geom::InputError("time_step", fmt::format("{:g}", options.time_step),
                            fmt::format("at most the stable step, {:.4g} s", stable),
                            "leave it out to use safety x stable");
-  const double most = model.surface.joint.empty() ? infinite : rigid_time_step(model, 1);
+  const double most = model.surface.joint.empty() ? infinite : most_rigid_time_step(model);
   if (options.time_step > most)
     throw geom::InputError(
         "time_step", fmt::format("{:g}", options.time_step),
-        fmt::format("at most {:.4g} s, 0.3 of the stable step of rigid bodies that touch", most),
+        fmt::format("at most {:.4g} s, half the stable step of rigid bodies that touch", most),
         "leave it out to use the usual one");
   return options.time_step > 0 ? options.time_step : usual;
 }
@@ -153,6 +153,7 @@ public:
         clock_(state_.time, stepping_.time_step, options) {
     stage_.breaking = options.breaking;
     stage_.safety = options.safety;
+    stage_.step_is_given = options.time_step > 0;
     stage_.follows_fragments = options.follows_fragments;
     stage_.escapes = {left_lengths * model_.length,
                       (options.holds_what_left ? left_lengths : run_away_lengths) * model_.length};

@@ -44,7 +44,7 @@ void ContactUpdate::evaluate(const StageContext& context, ContactWork& work, Run
 }
 
 double ContactUpdate::longest_step(const StageContext& context, const Workspace& work, double safety,
-                                   const StageStep& here) {
+                                   bool given, const StageStep& here) {
   const ContactSums sums = std::exchange(deepest_, {});
   if (sums.deepest > 1) {
     work.shared->gather(context.state);
@@ -53,7 +53,7 @@ double ContactUpdate::longest_step(const StageContext& context, const Workspace&
   return std::min(
       contact_time_step(context.model, context.state, work.contact.loads,
                         {row_sums_, work.damped,
-                         context.state.moving_mass.empty() ? work.bond.contact_damping : 0, safety}),
+                         context.state.moving_mass.empty() ? work.bond.contact_damping : 0, safety, given}),
       displacement_time_step(context.model, context.state, rigid_reach_));
 }
 

@@ -17,7 +17,7 @@ public:
   void evaluate(const StageContext&, ContactWork&, RunLog&);
   // The longest step that the contacts evaluated last leave, s, `safety` times the stable one; infinite without
   // contacts. Throws SolutionError where one has gone too deep since the last call.
-  double longest_step(const StageContext&, const Workspace&, double safety, const StageStep&);
+  double longest_step(const StageContext&, const Workspace&, double safety, bool given, const StageStep&);
   // The same for rigid bodies that are about to meet others: such that an impact keeps its energy.
   double longest_step_of_flight(const StageContext&, const Workspace&, double safety, bool damped) const;
 

@@ -70,7 +70,7 @@ struct RunOptions {
   double duration = 0; // s; 0 when `steps` is given
   std::int64_t steps = 0;
   double safety = 0.9;  // time step over the stable one, in (0, 1]; of rigid bodies that touch 0.5 at most
-  double time_step = 0; // s; 0 = safety x stable; refused above the stable one, 0.3 of it for rigid bodies
+  double time_step = 0; // s; 0 = safety x stable; refused above the stable one, half of it for rigid bodies
   MassScaling mass_scaling;
   bool breaking = true;
   bool follows_fragments =

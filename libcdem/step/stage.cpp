@@ -139,7 +139,7 @@ double Stage::update_contacts() {
   progress_.times.end(StepLine::others);
   const std::int64_t searches = work.contact.search.count;
   contacts_.evaluate(context_, work.contact, context_.log);
-  const double longest = contacts_.longest_step(context_, work, safety, here());
+  const double longest = contacts_.longest_step(context_, work, safety, step_is_given, here());
   if (!context_.model.surface.empty())
     progress_.times.end(work.contact.search.count > searches ? StepLine::contact_search : StepLine::contacts);
   return longest;

@@ -41,11 +41,12 @@ public:
   Workspace work;
   std::int64_t step = 0; // within the stage
   std::function<void(Progress&)>
-      details;              // adds to what the progress line shows, but stage, kind and times; may be empty
-  bool breaking = true;     // bonds may break
-  double safety = 1;        // the longest step over the stable one
-  double stable = 0;        // s, the stable step as the procedure has found it; 0: it has not
-  bool in_real_time = true; // velocities are per second: strength may depend on the rate, nodes join again
+      details;                // adds to what the progress line shows, but stage, kind and times; may be empty
+  bool breaking = true;       // bonds may break
+  double safety = 1;          // the longest step over the stable one
+  bool step_is_given = false; // by the user
+  double stable = 0;          // s, the stable step as the procedure has found it; 0: it has not
+  bool in_real_time = true;   // velocities are per second: strength may depend on the rate, nodes join again
   std::function<void()> scale_masses; // after nodes have been freed; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
   bool follows_fragments = false;

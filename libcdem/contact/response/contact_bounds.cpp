@@ -19,7 +19,7 @@ constexpr double touching_part = 0.02;
 // Fraction of the stable step, for the contacts of rigid bodies. Rigid bodies have no elements, so only the stiffness
 // of the contacts takes up an impact. At 0.9 an impact takes three steps and returns 0.75 to 1.5 of the energy. At 0.5
 // it returns the energy within a tenth.
-constexpr double most_of_rigid = 0.3;
+constexpr double most_of_rigid = 0.3, most_of_given = 0.5; // the second of a step that the user gives
 // Of the step of rigid bodies, for those in flight: omega dt of an impact is 0.12, and it gains at most (omega dt)^4 of its energy. At 0.2
 // friction has 5 % too much where a wall topples, at 0.12 1 %.
 constexpr double flight_part = 0.2;
@@ -79,8 +79,8 @@ ClosingStiffness closing_stiffness(const Model& model) {
   return {std::move(elements), std::move(contact)};
 }
 
-double for_rigid(double safety) {
-  return std::min(safety, most_of_rigid);
+double for_rigid(double safety, bool given = false) {
+  return std::min(safety, given ? most_of_given : most_of_rigid);
 }
 
 } // namespace
@@ -104,12 +104,16 @@ double contact_time_step(const Model& model, const State& state, const ContactLo
   if (fastest > 0)
     least = std::min(least, step.safety * stable_time_step(fastest, 0));
   for (const ContactOnRigid& body : loads.on_rigid)
-    least = std::min(least, for_rigid(step.safety) * stable_time_step(body.frequency2, 0));
+    least = std::min(least, for_rigid(step.safety, step.given) * stable_time_step(body.frequency2, 0));
   return least;
 }
 
 double rigid_time_step(const Model& model, double safety) {
   return rigid_time_step(model, model.rigid, safety);
+}
+
+double most_rigid_time_step(const Model& model) {
+  return for_rigid(1, true) / for_rigid(1) * rigid_time_step(model, 1);
 }
 
 double rigid_time_step(const Model& model, const std::vector<RigidBody>& bodies, double safety) {

@@ -15,12 +15,14 @@ struct ContactStep {
   bool damped = false;                 // stiffness damping acts
   double joint_damping = 0;            // s, of springs of interfaces that are contacts
   double safety = 1;
+  bool given = false; // the user has given a step: that of rigid bodies may be most_rigid_time_step
 };
 double contact_time_step(const Model&, const State&, const ContactLoads&, const ContactStep&);
 
 // s, likewise, of rigid bodies before any contact, if a fiftieth of their surface comes into contact: a step that lets
 // no more than a few contacts close at once. contact_time_step shortens it when more do. Infinite without rigid bodies.
 double rigid_time_step(const Model&, double safety);
+double most_rigid_time_step(const Model&);                                          // s, that a user may give
 double rigid_time_step(const Model&, const std::vector<RigidBody>&, double safety); // of these blocks
 
 // s, `safety` times the stable step of nodes at surfaces whose contacts are given a stiffness, as if all semi-springs of

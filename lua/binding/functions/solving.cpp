@@ -135,7 +135,7 @@ const Record<RunOptions> run_options{
       &RunOptions::safety},
      {number("time_step", "s")
           .above(0)
-          .doc("instead of safety; at most the stable one, 0.3 of it for rigid bodies that may touch"),
+          .doc("instead of safety; at most the stable one, half of it for rigid bodies that may touch"),
       &RunOptions::time_step},
      {mass_scaling_field()},
      {breaking(), &RunOptions::breaking},

@@ -67,7 +67,7 @@ private:
   [[noreturn]] static void throw_kind(ErrorKind, const std::string& message);
   static void end_unless_all_fail(ErrorKind, const std::string& message);
   std::map<std::string, ErrorKind>
-      kinds_; // by message, so that an error passed on by a script keeps its type
+      kinds_;                // by message, so that an error passed on by a script keeps its type
   bool holds_stops_ = false; // the function that runs now is asked in the middle of a change
   std::thread::id thread_;
   friend class LuaReference;
