@@ -4,6 +4,7 @@
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
 #include "libcdem/procedure/fictitious_masses.hpp"
+#include "libcdem/procedure/piece_balance.hpp"
 #include "libcdem/procedure/settled.hpp"
 #include "libcdem/procedure/slow_mode.hpp"
 #include "libcdem/procedure/stability.hpp"
@@ -171,6 +172,11 @@ public:
     result.converged = converged_;
     result.verdict = converged_ ? Verdict::stable : failing_ ? Verdict::failing : Verdict::undecided;
     stability_.describe(result);
+    if (loosest_.node >= 0) {
+      result.out_of_balance = loosest_.out_of_balance;
+      result.loosest_block = model_.blocks[block_of(model_, loosest_.node)].id;
+      result.loosest_place = model_.node_position[loosest_.node];
+    }
     return result;
   }
 
@@ -243,6 +249,10 @@ public:
     else
       settled_.start_anew();
     converged_ = settled_.reached(0.5 * damping_);
+    if (converged_) {
+      stage_.see_surfaces(previous_force_);
+      loosest_ = loosest_piece(model_, state_, stage_.work, previous_force_);
+    }
   }
 
 private:
@@ -310,6 +320,7 @@ private:
   FictitiousMasses masses_;
   std::vector<Node> previous_force_; // N, of the step before
   Settled settled_;
+  LoosestPiece loosest_; // once it has converged
   SlowMode slow_;
   const int moving_steps_ = stage_.work.resolved.has_target ? support_steps : 0; // of supports
   Stability stability_;
