@@ -47,8 +47,8 @@ struct RelaxResult : StageResult {
   double moving = 0;
   std::int64_t moving_block = 0;
   geom::Vec3 moving_place = geom::Vec3::Zero();
-  // Of a model that has converged, the piece that is the least in balance (procedure/piece_balance.hpp): by which part of the forces on it,
-  // a block of it (an id) and where (undeformed, m).
+  // The piece that is the least in balance once the model has converged (procedure/piece_balance.hpp): by which part of the forces
+  // on it, a block of it (an id) and where (undeformed, m).
   double out_of_balance = 0;
   std::int64_t loosest_block = 0;
   geom::Vec3 loosest_place = geom::Vec3::Zero();
