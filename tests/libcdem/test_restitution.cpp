@@ -1,5 +1,6 @@
 // Restitution of contacts: the speed after an impact over the speed before it, of rigid and deformable bodies.
 #include "libgeom/mesh/box_mesh.hpp"
+#include "libgeom/meshing/solid_mesh.hpp"
 #include "tests/libcdem/system.hpp"
 
 #include <catch2/catch.hpp>
@@ -144,6 +145,49 @@ TEST_CASE("a deformable body at rest on a floor only loses energy, at any restit
   }
   CHECK(s.energy().kinetic < 1e-3 * s.energy().external);
   CHECK(cdem::impossible_energy(s.energy(), s.time(), s.log().one_way).part < 2e-2);
+}
+
+// Its facets come to lie on the plates one by one, and the nodes of a fine mesh vibrate as fast as the steps allow.
+TEST_CASE("a disc that is pressed between plates gets no energy from its contacts", "[contact][energy]") {
+  const double restitution = GENERATE(0.5, 1.0), turn = GENERATE(0, 7);
+  CAPTURE(restitution, turn);
+  const double radius = 0.025, thickness = 0.01; // m
+  geom::MeshSize fine;
+  fine.size = 0.004;
+  const geom::Solid disc = geom::rotated(geom::cylinder({0, 0, 0}, {0, thickness, 0}, radius), {0, 1, 0},
+                                         turn * degree, {0, 0, 0});
+  geom::TetMesh mesh = geom::mesh_solid(disc, fine);
+  double top = 0, bottom = 0;
+  for (const Vec3& x : mesh.nodes) {
+    top = std::max(top, x.z());
+    bottom = std::min(bottom, x.z());
+  }
+  const auto plate = [&](double from) {
+    return box({2 * radius, 2 * thickness, 0.005}, {1, 1, 1}, {-radius, -0.5 * thickness, from});
+  };
+  cdem::Joint law;
+  law.bonded = false;
+  law.friction_angle = 25 * degree;
+  law.restitution = restitution;
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("disc", std::move(mesh)), meshed("lower", plate(bottom - 0.005)),
+                 meshed("upper", plate(top))};
+  spec.bodies[1].element = spec.bodies[2].element = cdem::Element::rigid;
+  spec.default_contact = law;
+  cdem::Simulation s(spec, 1, std::make_shared<cdem::Observer>());
+  s.fix(fixed(cdem::Selection::of_body("lower")));
+  cdem::Fix moved;
+  moved.on = cdem::Selection::of_body("upper");
+  moved.velocity = Vec3(0, 0, -0.1);
+  moved.amplitude = [](double time) { return std::min(1.0, time / 1e-3); };
+  s.fix(moved);
+  cdem::RunOptions options;
+  options.duration = 1.6e-3;
+  s.run(options);
+  const cdem::EnergyLedger energy = s.energy();
+  CHECK(cdem::impossible_energy(energy, s.time(), s.log().one_way).part < 1e-3);
+  CHECK(energy.balance_error() < 1e-3);
+  CHECK(energy.kinetic < 5e-3 * energy.elastic); // it is pressed slowly
 }
 
 // It stands on its lower edge for the most part, and waves press its contacts and let them go.

@@ -82,6 +82,7 @@ private:
     double density = 0;                  // kg/m3
     double acceleration = 0;             // m/s2, that the forces on the block can give it
     const BlockMotion* motion = nullptr; // that restitution uses; null: that of the contact
+    bool moves_as_whole() const { return !turns_round || !deforms || motion; }
   };
   struct BlockPair {
     int source_block = -1, target_block = -1;

@@ -81,11 +81,14 @@ void Evaluation::set_approach(const Contact& c, const ContactLaw& law, const Blo
   motion.approach = part_of((1 - rests) * approach + rests * closing, reversed);
   if (motion.approach >= 0)
     return; // nothing is held
-  // Bodies that part faster than that are no bodies at rest.
-  motion.held_at_most = approach <= -reversed
+  // Bodies that part faster than that are no bodies at rest. Nodes part as fast when they vibrate, and their speed counts as that of
+  // bodies only where restitution asks for it.
+  const bool tells = law.damping_ratio > 0 || (pair.source.moves_as_whole() && pair.target.moves_as_whole());
+  motion.held_at_most = tells && approach <= -reversed
                             ? 1
                             : part_held(part_damped(law, rests), closing, work_.step * motion.acceleration,
-                                        work_.step * (of_source() + of_target()));
+                                        work_.step * (of_source() + of_target()),
+                                        tells ? most_of_speed : most_where_nothing_tells_a_hop);
 }
 
 void Evaluation::go_on_if_opened(Contact& c) const {
