@@ -5,6 +5,8 @@ local cdem = require "cdem"
 
 local b = cdem.parameter{ name = "width", default = 0.5, range = {1e-2, 100}, unit = "m" }
 local h = cdem.parameter{ name = "height", default = 1.5, range = {1e-2, 100}, unit = "m" }
+local stiffness = cdem.parameter{ name = "normal_stiffness", default = 1e11, range = {1e8, 1e13}, unit = "Pa/m",
+                                  doc = "of the contact, which sets the time step of rigid bodies" }
 
 local stone = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
 local plate = cdem.solid.box{ size = {6 * b, 4 * b, 0.5 * b}, origin = {-3 * b, -2 * b, -0.5 * b} }:mesh{ size = b }
@@ -16,7 +18,7 @@ local function topples(angle, picture)
   local model = cdem.model{
     bodies = { { shape = plate, material = stone, element = "rigid", name = "plate" },
                { shape = block, material = stone, element = "rigid", name = "block" } },
-    contacts = { { "plate", "block", cdem.coulomb{ friction_angle = 60 } } },
+    contacts = { { "plate", "block", cdem.coulomb{ friction_angle = 60, normal_stiffness = stiffness } } },
   }
   model:fix{ on = "plate" }
   local function lean(degrees)

@@ -18,7 +18,7 @@ local function swept(script, set)
   return runs
 end
 local low, tough, base, layer, soft, smooth, brittle = table.unpack(swept("case.lua", {
-  { units = 8, groups = 1, time = 2.0, pictures = false },
+  { units = 8, groups = 1, time = 2.0, pictures = false, fineness = 2 },
   { units = 8, groups = 1, time = 0.3, pictures = false, breakable = true, tensile_strength = 3e7, fracture_energy = 1e4 },
   short{}, short{ seed = 2, film = 0.15 }, short{ youngs_modulus = 3e9 }, short{ friction_angle = 10.0 },
   short{ breakable = true, tensile_strength = 3e7, fracture_energy = 0.0, rigid_for = 0.2 } }))

@@ -1,8 +1,8 @@
--- The small breakwater of the tutorial, until its first unit leaves.
+-- The small breakwater of the tutorial, still smaller, until its first unit leaves.
 local cdem = require "cdem"
 local expect = require "expect"
 
-local result = cdem.sweep{ script = "../../examples/breakwater/case.lua", set = { { count = 12, columns = 3 } } }[1]
+local result = cdem.sweep{ script = "../../examples/breakwater/case.lua", set = { { count = 8, columns = 2 } } }[1]
 if result.exit_code ~= 0 then error("the example ended with exit code " .. result.exit_code) end
 local figures = result.figures
 expect.between(figures, "kinetic_ratio_at_rest", 0, 1e-4)
