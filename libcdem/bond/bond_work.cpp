@@ -82,4 +82,10 @@ BondWork::BondWork(const Model& model, const State& state)
   find_idle_springs(model, state, *this);
 }
 
+void BondWork::add_dashpots() {
+  viscous.resize(spring_force.size(), geom::Vec3::Zero());
+  if (acting_force.empty())
+    acting_force = spring_force;
+}
+
 } // namespace cdem

@@ -43,8 +43,8 @@ struct BondWork {
 
   // N, on side a: what the springs themselves bear, without water (n_points); written by spring_forces
   std::vector<geom::Vec3> spring_force;
-  // N, the same less what water pushes the faces apart with, where interfaces have turned to (n_points); empty where
-  // none can turn and no joint holds water.
+  // N, the same less what water pushes the faces apart with and with what dashpots bear, where interfaces have turned to
+  // (n_points); empty where none can turn, no joint holds water and there are no dashpots.
   std::vector<geom::Vec3> acting_force;
   const std::vector<geom::Vec3>& force() const { return acting_force.empty() ? spring_force : acting_force; }
   std::vector<SpringStrength> strength; // per interface
@@ -53,8 +53,10 @@ struct BondWork {
   // 1/s, of the means that the friction of contacts follows, per interface; 0 where neither block deforms
   std::vector<double> rest_rate;
   double damping_step = 0; // s, of the step in time; 0: stiffness damping does not act
-  // N, of damping in the step before, in undeformed directions (n_points; empty without interfaces that turn)
+  // N, of damping in the step before, in undeformed directions (n_points; empty: no dashpots, as no interface turns and
+  // no spring has become a contact)
   std::vector<geom::Vec3> viscous;
+  void add_dashpots();
   // Both empty in a model without softening joints.
   std::vector<SofteningLaw> softening; // per interface
   std::vector<InterfaceLaw> laws;      // per interface; empty in a model without laws

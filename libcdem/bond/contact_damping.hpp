@@ -1,4 +1,4 @@
-// The damping of springs that are contacts: broken or never bonded, between blocks that move far. A contact that opens or
+// The damping of springs that are contacts: broken or never bonded. A contact that opens or
 // closes within a step dt gains or loses up to k (v dt)^2 / 8, and near the stable step vibrations grow on these errors.
 // So a contact carries k beta times the rate of its stretch at least, with
 //

@@ -107,7 +107,6 @@ SpringBatches spring_batches(const Model& model, const std::vector<SpringStrengt
         set_spring(batch, static_cast<int>(p - begin), point);
         on_nodes = on_nodes && point.one_to_one;
         batch.turns = batch.turns || interface.frame >= 0;
-        batch.all_turn = batch.all_turn && interface.frame >= 0;
         batch.plain = batch.plain && plain[point.interface] != 0;
       }
       for (int lane = batch.count; lane < lanes; ++lane)

@@ -20,7 +20,6 @@ struct alignas(64) SpringBatch {
   int apart = -1; // into SpringBatches::apart where some spring's sides did not lie on each other undeformed
   int count = 0;  // springs
   bool turns = false; // some interface may turn
-  bool all_turn = true;
   bool plain = true;  // brittle bonds and contacts with friction: nothing softens or has a law of its own
   double area[lanes]; // m2
 };

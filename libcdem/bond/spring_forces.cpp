@@ -277,15 +277,6 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   State& state = c.state;
   BondWork& work = c.work;
   const Node* const u = state.displacement.data();
-  if (interface.frame < 0) {
-    const geom::Vec3 j = jump_at(point, u), still = geom::Vec3::Zero();
-    const BesideNormal beside =
-        c.advances ? beside_normal<special>(c, p, still, j - contact_offset(state, p)) : BesideNormal();
-    update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, beside);
-    if (c.acts_otherwise)
-      work.acting_force[p] = work.spring_force[p] + water_force(state, point, p);
-    return;
-  }
   if (released(state, interface)) {
     work.spring_force[p].setZero();
     work.acting_force[p].setZero();
@@ -301,6 +292,8 @@ void one_spring(const SpringsOfChunk& c, std::int64_t p, const geom::Mat3& rotat
   const BesideNormal beside =
       c.advances ? beside_normal<special>(c, p, rate, j - offset_before) : BesideNormal();
   update_spring<special>(point, interface, state, work, p, j, c.sums, c.breaking, beside);
+  if (!c.acts_otherwise)
+    return;
   geom::Vec3 acting = work.spring_force[p] + water_force(state, point, p);
   if (c.damped) {
     // Damping takes in a step the mean of its forces before and after it, times the motion.
@@ -386,8 +379,7 @@ void forces_of_springs(std::int64_t chunk, const SpringsOfChunk& c) {
       continue;
     }
     unsigned one_by_one = (1u << batch.count) - 1;
-    if (plain && batch.plain && batch.count == lanes && !some_released(c.model, state, batch) &&
-        (!c.damped || batch.all_turn || !batch.turns)) {
+    if (plain && batch.plain && batch.count == lanes && !some_released(c.model, state, batch)) {
       SpringsOfBatch springs;
       springs.displacement = state.displacement.data();
       springs.rotation = turns ? rotations.numbers.data() : nullptr;

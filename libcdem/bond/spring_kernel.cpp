@@ -151,11 +151,12 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   Triples viscous{};
   if (simd::any(contact)) {
     const ContactsInTime in_time = springs.contacts ? *springs.contacts : ContactsInTime();
-    geom::Vec3* const dashpots = in_time.viscous && batch.turns ? in_time.viscous + springs.first : nullptr;
+    geom::Vec3* const dashpots = in_time.viscous ? in_time.viscous + springs.first : nullptr;
     Triples rate{};
     Oct along{};
     if (dashpots) {
-      rate = turned_back(rotation, jumps_of(all, batch, in_time.velocity));
+      const Triples rates = jumps_of(all, batch, in_time.velocity);
+      rate = turns ? turned_back(rotation, rates) : rates;
       const Oct of_contact =
           viscous_along<Oct>(none + in_time.contact_damping, kn, dot(rate, n), normal_force);
       along = contact & ~leaves ? of_contact : none;
@@ -203,7 +204,7 @@ CDEM_INLINE void spring_kernel(const SpringBatches& all, const SpringBatch& batc
   const Triples force = chosen(leaves, before, spring_force<Oct>(kn, ks, n, stretch, held));
   store_triples(springs.force, force);
   if (springs.acting)
-    store_triples(springs.acting, turns ? turned(rotation, force + viscous) : force);
+    store_triples(springs.acting, turns ? turned(rotation, force + viscous) : force + viscous);
 }
 
 } // namespace

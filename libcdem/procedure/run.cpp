@@ -125,13 +125,13 @@ private:
   std::int64_t given_, first_ = 0, steps_ = 0;
 };
 
-// Some springs of interfaces that turn are contacts, if only with the share that is broken.
+// Some springs are contacts, if only with the share that is broken.
 bool any_dry_joint(const Model& model, const State& state) {
   const auto is_dry = [&](const Interface& interface) {
     int p = interface.point_begin;
     while (p < interface.point_end && broken_share(state, p) == 0)
       ++p;
-    return interface.frame >= 0 && !released(state, interface) && p < interface.point_end;
+    return !released(state, interface) && p < interface.point_end;
   };
   const bool any = std::any_of(model.interfaces.begin(), model.interfaces.end(), is_dry);
   return state.bond_damage.empty() ? any : ranks().any(any); // a rank knows the damage of its own springs
@@ -217,11 +217,17 @@ public:
             fmt::format("the time step fell from {:.3g} to {:.3g} s: faces that crack are stiff", before,
                         stepping_.time_step));
     }
-    if (chooses_step_ && (changed || stage_.begins() || stage_.is_due(watch_every)) &&
-        any_dry_joint(model_, state_))
-      shorten(options_.safety * stable_step_of_dry_joints(stage_.stable));
-    stage_.work.bond.contact_damping = contact_damping(
-        stepping_.time_step, scaled_.on() ? stepping_.time_step / options_.safety : stage_.stable);
+    BondWork& bond = stage_.work.bond;
+    if ((changed || stage_.begins() || stage_.is_due(watch_every)) && any_dry_joint(model_, state_)) {
+      bond.add_dashpots();
+      if (options_.time_step == 0 && !scaled_.on())
+        shorten(options_.safety * stable_step_of_dry_joints(stage_.stable));
+    }
+    bond.contact_damping =
+        bond.viscous.empty()
+            ? 0
+            : contact_damping(stepping_.time_step,
+                              scaled_.on() ? stepping_.time_step / options_.safety : stage_.stable);
   }
 
   void take_contacts(double longest) override {
@@ -335,7 +341,7 @@ private:
 
   double stable_of_mesh() const { return stable_time_step(model_, stage_.work.resolved.bolts); }
   void find_stable_step() { // rigid bodies take half of their stable step at most
-    if (model_.frames.empty())
+    if (model_.points.empty())
       return;
     stage_.stable = stable_of_mesh();
     if (!model_.surface.empty())
@@ -361,7 +367,6 @@ private:
   ScaledStage scaled_;
   Clock clock_;
   std::vector<double> viscous_ = viscous_forces(model_);
-  const bool chooses_step_ = options_.time_step == 0 && !scaled_.on() && !model_.frames.empty();
   const bool has_crack_pressure_ = !context_.conditions.crack_pressures.empty();
   // s; only where a fluid in a crack asks for it: it reads the whole model, whose other parts a rank has given back.
   double stable_of_mesh_ = has_crack_pressure_ ? stable_of_mesh() : 0;

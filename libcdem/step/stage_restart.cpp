@@ -99,6 +99,8 @@ void Stage::take_springs(const RestartPoint& from) {
   work.bond.spring_force = from.spring_force;
   work.bond.stretch = from.stretch;
   work.bond.viscous = from.viscous;
+  if (!from.viscous.empty())
+    work.bond.add_dashpots();
 }
 
 void Stage::go_on_from(const RestartPoint& from) {
