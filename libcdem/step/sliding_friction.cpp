@@ -20,6 +20,9 @@ namespace {
 // A hop lasts for fewer looks; a body that is thrown flies for longer.
 constexpr double looks_of_a_hop = 10;
 
+// Share of its friction from which a sole slides: until it is there for the first time, soles stick and give elastically.
+constexpr double used_up = 0.98;
+
 bool deforms(const Model& model, int block) {
   return model.blocks[block].rigid < 0;
 }
@@ -138,7 +141,8 @@ void SlidingFriction::look(const Model& model, const State& state, const BondWor
   }
   for (const auto& [pair, found] : now) {
     const Sums& sums = found.sums;
-    if (!std::isfinite(sums.path) || !(found.pressed > 0))
+    if (!std::isfinite(sums.path) || !(found.pressed > 0) ||
+        (of_blocks.count(pair) == 0 && sums.done < used_up * sums.path))
       continue;
     Sums& all = of_blocks[pair];
     if (all.time == 0)

@@ -17,7 +17,8 @@ struct State;
 
 struct SlidingFriction {
   // Sums over the contacts of two blocks, smaller first, of which one deforms, and over the springs between them that are
-  // contacts. v: slip of the two there if each moved as a rigid body, w: of the contact itself, both along its face.
+  // contacts, from the first look on that finds their friction used up. v: slip of the two there if each moved as a rigid
+  // body, w: of the contact itself, both along its face.
   struct Sums {
     // N m, sum of tan(phi) N v dt, of the first past the second: what shakes to and fro does not count.
     geom::Vec3 law = geom::Vec3::Zero();

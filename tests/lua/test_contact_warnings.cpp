@@ -145,6 +145,32 @@ m:run{ duration = 0.1 }
   CHECK(told("rigid", "", 0.25).empty());
 }
 
+TEST_CASE("a block that is pulled slowly by some elastic deflections of its joint is not told of",
+          "[lua][contact]") {
+  const std::string shape = GENERATE(as<std::string>{}, "cdem.box{ size = {1, 1, 0.5} }",
+                                     "cdem.grid{ size = {1, 1, 0.5}, divisions = {2, 2, 2} }"),
+                    element = GENERATE(as<std::string>{}, "finite_volume", "small_strain");
+  CAPTURE(shape, element);
+  const std::vector<std::string> told =
+      warnings_of("local cdem = require 'cdem'\nlocal shape, element = " + shape + ", '" + element + R"('
+local stone = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2400 }
+local strong = cdem.mohr_coulomb{ cohesion = 1e12, friction_angle = 0, tensile_strength = 1e12 }
+local floor = cdem.box{ size = {4, 2, 0.5}, origin = {-1, -0.5, -0.5} }
+local m = cdem.model{ bodies = { { name = "floor", material = stone, element = element, shape = floor },
+                                 { name = "block", material = stone, element = element, shape = shape,
+                                   joint = strong, bonds = "springs" } },
+                      contacts = { { "floor", "block", cdem.coulomb{ friction_angle = 30 } } } }
+m:fix{ on = "floor" }
+m:traction{ on = cdem.select.box{ min = {-0.1, -0.1, 0.499}, max = {1.1, 1.1, 0.501} }, pressure = 1e6 }
+m:relax{ residual = 1e-6 }
+local begin, side = m.time, cdem.select.box{ min = {0.999, -0.1, 0.001}, max = {1.001, 1.1, 0.6} }
+m:fix{ on = side, axes = "x", velocity = {0.02, 0, 0},
+       amplitude = function(t) return math.min(1, (t - begin) / 0.005) end }
+for _ = 1, 4 do m:run{ duration = 0.02 } end
+)");
+  CHECK(those_with(told, "they slide").empty());
+}
+
 TEST_CASE("a block that sticks to a ground which shakes is not told of as one that slides",
           "[lua][contact]") {
   const std::vector<std::string> told = warnings_of(R"(
