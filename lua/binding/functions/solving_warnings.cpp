@@ -1,5 +1,6 @@
 #include "lua/binding/functions/solving_warnings.hpp"
 
+#include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/memory_needed.hpp"
 #include "libcdem/ranks/ranks.hpp"
 #include "libcdem/results/deformation.hpp"
@@ -77,8 +78,10 @@ Cause likely_cause(const ModelObject& model) {
   if (contacts.deepest > 0)
     return {"contacts that open and close or change over from face to face",
             "take a smaller safety, softer contacts, or damping"};
-  if (!simulation.log().breaks.empty())
-    return {"bonds that break within a step", "take a smaller safety"};
+  const std::vector<std::uint8_t>& modes = simulation.state().bond_mode;
+  if (!simulation.log().breaks.empty() ||
+      !std::all_of(modes.begin(), modes.end(), [](std::uint8_t mode) { return is_intact(mode); }))
+    return {"broken or dry joints that open and close within a step", "take a smaller safety"};
   return {"a time step too near the stable one", "take a smaller safety or time_step"};
 }
 
