@@ -2,6 +2,7 @@
 
 #include "libcdem/bond/fragments.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
@@ -11,16 +12,19 @@ double norm(const Node& f) {
   return std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z);
 }
 
-double norm_at(const std::vector<Node>& force, std::int64_t node) {
-  return force.empty() ? 0 : norm(force[node]);
+Node at(const std::vector<Node>& force, std::int64_t node) {
+  return force.empty() ? Node{} : force[node];
 }
 
 struct Acting {
-  double load = 0, contact = 0; // N
+  Node load;
+  double initial_stress = 0, contact = 0; // N
 };
 
 struct Forces {
   double load = 0, held = 0, out_of_balance = 0; // N, sums of sizes; held: of what is no load
+  double out_of_balance2 = 0;                    // N2, sum of squares
+  bool is_out(double goal) const { return load > 0 && !(out_of_balance <= goal * (load + held)); }
 };
 
 // Of all ranks (n_nodes).
@@ -29,23 +33,20 @@ std::vector<Acting> acting_on_nodes(const Workspace& work, std::size_t nodes) {
   const StateShares& shares = work.shared->shares();
   std::vector<Acting> acting(nodes);
   for (std::int64_t i = shares.nodes().begin; i < shares.nodes().end; ++i)
-    acting[i] = {norm_at(r.external, i) + norm_at(r.internal, i), norm_at(work.contact.loads.force, i)};
+    acting[i] = {at(r.external, i), norm(at(r.internal, i)), norm(at(work.contact.loads.force, i))};
   shares.gather_nodes(acting);
   return acting;
 }
 
-} // namespace
-
-LoosestPiece loosest_piece(const Model& model, const State& state, Workspace& work,
-                           const std::vector<Node>& force) {
-  const std::vector<int> pieces = fragments_of_nodes(model, state);
-  const std::vector<Acting> acting = acting_on_nodes(work, pieces.size());
+std::vector<Forces> forces_on(const std::vector<int>& pieces, const std::vector<Acting>& acting,
+                              const Model& model, Workspace& work, const std::vector<Node>& force) {
   std::vector<Forces> of_piece(pieces.size());
   const auto add = [&](std::int64_t node, const Node& free) {
-    const Node& f = force[node];
+    const Node &f = force[node], out{free.x * f.x, free.y * f.y, free.z * f.z, 0};
     Forces& sums = of_piece[pieces[node]];
-    sums.load += acting[node].load;
-    sums.out_of_balance += norm({free.x * f.x, free.y * f.y, free.z * f.z, 0});
+    sums.load += norm(acting[node].load) + acting[node].initial_stress;
+    sums.out_of_balance += norm(out);
+    sums.out_of_balance2 += out.x * out.x + out.y * out.y + out.z * out.z;
     sums.held += acting[node].contact + norm({(1 - free.x) * f.x, (1 - free.y) * f.y, (1 - free.z) * f.z, 0});
   };
   each_node(
@@ -64,12 +65,36 @@ LoosestPiece loosest_piece(const Model& model, const State& state, Workspace& wo
     of_piece[a].held += spring;
     of_piece[b].held += spring;
   }
-  LoosestPiece loosest;
-  for (int piece = 0; piece < static_cast<int>(of_piece.size()); ++piece)
-    if (const Forces& f = of_piece[piece]; f.load > 0)
-      if (const double part = f.out_of_balance / (f.load + f.held); part > loosest.out_of_balance)
-        loosest = {part, piece};
-  return loosest;
+  return of_piece;
+}
+
+} // namespace
+
+LoosePieces loose_pieces(const Model& model, const State& state, Workspace& work,
+                         const std::vector<Node>& force, double goal) {
+  goal = std::max(goal, 0.001);
+  const std::vector<int> pieces = fragments_of_nodes(model, state);
+  const std::vector<Acting> acting = acting_on_nodes(work, pieces.size());
+  const std::vector<Forces> of_piece = forces_on(pieces, acting, model, work, force);
+  const auto any = [&](const auto& is) { return std::any_of(of_piece.begin(), of_piece.end(), is); };
+  LoosePieces loose;
+  if (!any([&](const Forces& f) { return f.is_out(goal); }))
+    return loose;
+  loose.fall = !any([&](const Forces& f) { return f.is_out(goal) && f.held > 0; });
+  double theirs2 = 0, all2 = 0;
+  std::vector<char> is_loose(pieces.size());
+  for (std::size_t i = 0; i < of_piece.size(); ++i) {
+    const Forces& f = of_piece[i];
+    is_loose[i] = f.is_out(goal) && (loose.fall || f.held > 0);
+    theirs2 += is_loose[i] ? f.out_of_balance2 : 0;
+    all2 += f.out_of_balance2;
+  }
+  loose.of_residual = std::sqrt(theirs2 / all2);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    loose.nodes.push_back(is_loose[pieces[i]]);
+    loose.load.push_back(acting[i].load);
+  }
+  return loose;
 }
 
 } // namespace cdem

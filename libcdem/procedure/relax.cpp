@@ -74,12 +74,29 @@ public:
       : model_(model), state_(state), watch_(slowest_period(model, mass), model.length, moving_steps),
         displacement_(state.displacement) {}
 
-  void look(std::int64_t step, double residual) {
+  // has_settled: as a whole.
+  void look(std::int64_t step, double residual, const LoosePieces& loose, bool has_settled) {
+    const bool lands = fall_ == Fall::falls && !loose.fall;
+    if (has_settled != has_settled_ || lands) {
+      watch_.start_anew();
+      path_ = 0;
+    }
+    has_settled_ = has_settled;
+    if (lands)
+      fall_ = Fall::landed;
+    else if (loose.fall && fall_ == Fall::none)
+      fall_ = Fall::falls;
     const EnergyLedger ledger = energy(model_, state_);
-    fastest_ = fastest(displacement_, state_.displacement);
+    fastest_ = fastest(displacement_, state_.displacement, loose.nodes);
+    for (std::size_t i = 0; i < loose.nodes.size(); ++i)
+      if (!loose.nodes[i]) {
+        const Node &to = state_.displacement[i], &from = displacement_[i], &load = loose.load[i];
+        work_on_rest_ += load.x * (to.x - from.x) + load.y * (to.y - from.y) + load.z * (to.z - from.z);
+      }
     displacement_ = state_.displacement;
     path_ += fastest_.displacement;
-    watch_.add({step, path_, residual, ledger.external, ledger.elastic + ledger.springs});
+    watch_.add({step, path_, residual * loose.of_residual, ledger.external - work_on_rest_,
+                ledger.elastic + ledger.springs - work_on_rest_, fall_ == Fall::falls});
   }
   void renumbered() { displacement_ = state_.displacement; }
   const StabilityWatch& watch() const { return watch_; }
@@ -90,23 +107,33 @@ public:
   }
 
   void add_to(std::vector<double>& loop_state) const {
-    loop_state.insert(loop_state.end(), {path_, static_cast<double>(fastest_.node), fastest_.displacement});
+    loop_state.insert(loop_state.end(),
+                      {path_, work_on_rest_, has_settled_ ? 1.0 : 0.0, static_cast<double>(fall_),
+                       static_cast<double>(fastest_.node), fastest_.displacement});
     watch_.add_to(loop_state);
   }
   void take(const std::vector<double>& loop_state, std::size_t from) {
     path_ = loop_state.at(from);
-    const double node = loop_state.at(from + 1);
+    work_on_rest_ = loop_state.at(from + 1);
+    has_settled_ = loop_state.at(from + 2) != 0;
+    const double fall = loop_state.at(from + 3);
+    fall_ = fall == 1 ? Fall::falls : fall == 2 ? Fall::landed : Fall::none;
+    const double node = loop_state.at(from + 4);
     const bool there = node >= 0 && node < static_cast<double>(displacement_.size());
-    fastest_ = {there ? static_cast<int>(node) : 0, loop_state.at(from + 2)};
-    watch_.take(loop_state, from + 3);
+    fastest_ = {there ? static_cast<int>(node) : 0, loop_state.at(from + 5)};
+    watch_.take(loop_state, from + 6);
   }
 
 private:
   const Model& model_;
   const State& state_;
   StabilityWatch watch_;
-  std::vector<Node> displacement_; // m, at the last look (n_nodes)
-  double path_ = 0;                // m, of the fastest node
+  std::vector<Node> displacement_;                        // m, at the last look (n_nodes)
+  enum class Fall : std::uint8_t { none, falls, landed }; // of loose pieces; what bounces has landed
+  bool has_settled_ = false;
+  Fall fall_ = Fall::none;
+  double path_ = 0;         // m, of the fastest node
+  double work_on_rest_ = 0; // J, of the loads on the pieces that were in balance
   Fastest fastest_;
 };
 
@@ -172,11 +199,6 @@ public:
     result.converged = converged_;
     result.verdict = converged_ ? Verdict::stable : failing_ ? Verdict::failing : Verdict::undecided;
     stability_.describe(result);
-    if (loosest_.node >= 0) {
-      result.out_of_balance = loosest_.out_of_balance;
-      result.loosest_block = model_.blocks[block_of(model_, loosest_.node)].id;
-      result.loosest_place = model_.node_position[loosest_.node];
-    }
     return result;
   }
 
@@ -204,7 +226,8 @@ public:
                                 largest_reaction2_,
                                 kept_kinetic_,
                                 forces_known_ ? 1.0 : 0.0,
-                                slow_.frequency2().value_or(-1)};
+                                slow_.frequency2().value_or(-1),
+                                has_settled_ ? 1.0 : 0.0};
     settled_.add_to(numbers);
     masses_.add_to(numbers);
     stability_.add_to(numbers);
@@ -240,7 +263,7 @@ public:
     const double residual = stage_.report.residual;
     if (judges_ && stage_.is_due(watch_every)) {
       stage_.see_whole();
-      stability_.look(stage_.step, residual);
+      stability_.look(stage_.step, residual, loose(), has_settled_);
       failing_ = stability_.watch().failing();
     }
     choose_damping(stage_.report.sums);
@@ -248,14 +271,22 @@ public:
       settled_.add(residual);
     else
       settled_.start_anew();
-    converged_ = settled_.reached(0.5 * damping_);
-    if (converged_) {
-      stage_.see_surfaces(previous_force_);
-      loosest_ = loosest_piece(model_, state_, stage_.work, previous_force_);
+    if (stage_.broken_in_step() > 0)
+      has_settled_ = false;
+    if (settled_.reached(0.5 * damping_)) {
+      converged_ = loose().nodes.empty();
+      has_settled_ = true;
+      if (!converged_)
+        settled_.start_anew();
     }
   }
 
 private:
+  LoosePieces loose() {
+    stage_.see_surfaces(previous_force_);
+    return loose_pieces(model_, state_, stage_.work, previous_force_, options_.residual);
+  }
+
   void begin_at_rest() {
     const double moving = energy(model_, state_).total();
     stop(state_);
@@ -308,9 +339,10 @@ private:
     stage_.report.sums.kinetic = numbers.at(3);
     forces_known_ = numbers.at(4) != 0;
     slow_.take(numbers.at(5));
+    has_settled_ = numbers.at(6) != 0;
     if (forces_known_ && stage_.step > moving_steps_)
       slow_.start(state_, previous_force_);
-    stability_.take(numbers, masses_.take(numbers, settled_.take(numbers, 6)));
+    stability_.take(numbers, masses_.take(numbers, settled_.take(numbers, 7)));
   }
 
   const Model& model_;
@@ -320,13 +352,13 @@ private:
   FictitiousMasses masses_;
   std::vector<Node> previous_force_; // N, of the step before
   Settled settled_;
-  LoosestPiece loosest_; // once it has converged
   SlowMode slow_;
   const int moving_steps_ = stage_.work.resolved.has_target ? support_steps : 0; // of supports
   Stability stability_;
   // Without supports nothing could hold the model: a mistake, that ends with an error.
   const bool judges_ = !stage_.work.resolved.held.empty();
   bool failing_ = false, converged_ = false;
+  bool has_settled_ = false;  // as a whole, though a piece may not be in balance
   bool forces_known_ = false; // of the step before
   double lambda_ = 0, damping_ = 0, largest_reaction2_ = 0;
   double kept_kinetic_ = 0; // J, of the state that was kept last

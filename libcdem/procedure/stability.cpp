@@ -1,5 +1,6 @@
 #include "libcdem/procedure/stability.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cdem {
@@ -8,7 +9,7 @@ namespace {
 constexpr double keeps_speed = 0.8;  // of the third quarter, in the last one
 constexpr double makes_motion = 1.5; // times the displacement of half the steps ago
 constexpr double stored_part = 0.1;  // of the work
-constexpr double taken_back = 0.1;   // of the work that the loads have given from look to look
+constexpr double taken_back = 0.1;   // of the work that the loads have given
 constexpr double stays_out = 0.5;    // of the residual of the third quarter, in the last one
 constexpr double periods = 4;
 constexpr double far = 0.01; // of the model's length
@@ -36,18 +37,35 @@ void StabilityWatch::add(const StabilityLook& look) {
   suspicious_ = runs_away() ? suspicious_ + 1 : 0;
 }
 
+void StabilityWatch::start_anew() {
+  looks_.clear();
+  suspicious_ = 0;
+}
+
 bool StabilityWatch::runs_away() const {
   const std::size_t n = looks_.size();
   if (n < least_looks)
     return false;
   const std::size_t at_c = n - 1, at_a = (n - 1) / 2, at_b = (at_a + at_c) / 2;
   const StabilityLook &a = looks_[at_a], &b = looks_[at_b], &c = looks_[at_c];
-  double given = 0, taken = 0; // J, work from look to look
-  for (std::size_t i = at_a + 1; i <= at_c; ++i) {
-    const double work = looks_[i].work - looks_[i - 1].work;
+  // A stone that slides may rattle from look to look: means count.
+  const std::size_t eighth = std::max<std::size_t>(1, (at_c - at_a) / 4), parts = (at_c - at_a) / eighth;
+  const auto mean_work = [&](std::size_t part) { // J; part 0 is the last one
+    double sum = 0;
+    for (std::size_t i = 0; i < eighth; ++i)
+      sum += looks_[at_c - part * eighth - i].work;
+    return sum / static_cast<double>(eighth);
+  };
+  double given = 0, taken = 0; // J
+  for (std::size_t part = 0; part < parts; ++part) {
+    const double work = mean_work(part) - mean_work(part + 1);
     (work > 0 ? given : taken) += std::abs(work);
   }
   if (!(given > 0) || taken > taken_back * given)
+    return false;
+  const double last_half = mean_work(0) - mean_work(parts / 2),
+               first_half = mean_work(parts / 2) - mean_work(parts / 2 * 2);
+  if (last_half < keeps_speed * first_half)
     return false;
   // Means over as many looks, or one less.
   const auto mean_residual = [&](std::size_t first, std::size_t last) {
@@ -56,7 +74,8 @@ bool StabilityWatch::runs_away() const {
       sum += looks_[i].residual;
     return sum / static_cast<double>(last - first);
   };
-  if (static_cast<double>(c.step - waiting_) < periods * period_ && c.path - a.path < far * length_)
+  if ((c.falls || static_cast<double>(c.step - waiting_) < periods * period_) &&
+      c.path - a.path < far * length_)
     return false;
   const double last_quarter = static_cast<double>(c.step - b.step),
                third_quarter = static_cast<double>(b.step - a.step);
@@ -68,16 +87,16 @@ bool StabilityWatch::runs_away() const {
 void StabilityWatch::add_to(std::vector<double>& loop_state) const {
   loop_state.push_back(suspicious_);
   for (const StabilityLook& look : looks_)
-    loop_state.insert(loop_state.end(),
-                      {static_cast<double>(look.step), look.path, look.residual, look.work, look.stored});
+    loop_state.insert(loop_state.end(), {static_cast<double>(look.step), look.path, look.residual, look.work,
+                                         look.stored, look.falls ? 1.0 : 0.0});
 }
 
 void StabilityWatch::take(const std::vector<double>& loop_state, std::size_t from) {
   suspicious_ = static_cast<int>(loop_state.at(from));
   looks_.clear();
-  for (std::size_t i = from + 1; i + 5 <= loop_state.size(); i += 5)
+  for (std::size_t i = from + 1; i + 6 <= loop_state.size(); i += 6)
     looks_.push_back({static_cast<std::int64_t>(loop_state[i]), loop_state[i + 1], loop_state[i + 2],
-                      loop_state[i + 3], loop_state[i + 4]});
+                      loop_state[i + 3], loop_state[i + 4], loop_state[i + 5] != 0});
 }
 
 double slowest_period(const Model& model, const std::vector<double>& mass) {
@@ -94,10 +113,12 @@ double slowest_period(const Model& model, const std::vector<double>& mass) {
   return 4 * model.length / std::sqrt(speed2);
 }
 
-Fastest fastest(const std::vector<Node>& from, const std::vector<Node>& to) {
+Fastest fastest(const std::vector<Node>& from, const std::vector<Node>& to, const std::vector<char>& of) {
   Fastest found;
   double most2 = 0;
   for (std::size_t i = 0; i < to.size(); ++i) {
+    if (!of.empty() && !of[i])
+      continue;
     const double x = to[i].x - from[i].x, y = to[i].y - from[i].y, z = to[i].z - from[i].z;
     const double moved2 = x * x + y * y + z * z;
     if (moved2 > most2) {

@@ -6,11 +6,16 @@
 //
 //   D_c - D_b >= 0.8 (D_b - D_a)      it does not slow down,
 //   D_c >= 1.5 D_a                    and this motion makes the displacement, not the first settlement;
-//   from a to c W takes back at most 0.1 of what it gains from look to look, and S_c - S_a <= 0.1 (W_c - W_a)
-//                                     the loads drive it on, and their work is not stored: nothing holds against it,
+//   from a to c the means of W over eighths of the steps take back at most 0.1 of what they gain from one to the next, and gain in
+//   the last quarter at least 0.8 of what they gain in the third: no swing, and nothing that rattles as it slows down;
+//   S_c - S_a <= 0.1 (W_c - W_a)      the loads drive it on, and their work is not stored: nothing holds against it,
 //   mean R of (b, c] >= 0.5 mean R of (a, b]     the forces out of balance do not die away,
 //   n >= 4 T  or  D_c - D_a >= L / 100     the slowest wave has crossed the model and come back, several times; or it has
-//                                          moved further than rock and soil do before they fail.
+//                                          moved further than rock and soil do before they fail. Only the second, for what
+//                                          touches nothing: it may fall onto something.
+//
+// All that is of the pieces that are out of balance (piece_balance.hpp), or of the model where all are in balance: what the loads do
+// on the rest counts neither to W nor to S.
 //
 // The last line is needed: in the first tenth of its first swing an elastic body does all the others. T is the period of
 // a rod as long as the model L, held at one end, with the masses m of the relaxation (kg, for a unit step), volume V:
@@ -32,6 +37,7 @@ struct StabilityLook {
   double residual = 0; // R
   double work = 0;     // W, J
   double stored = 0;   // S, J
+  bool falls = false;  // it touches nothing
 };
 
 // Looks are added at equal distances.
@@ -43,6 +49,7 @@ public:
       : period_(period), length_(length), waiting_(waiting_steps) {}
 
   void add(const StabilityLook&);
+  void start_anew(); // something else moves
   bool failing() const { return suspicious_ >= 3; }
   // From the last look alone.
   bool suspicious() const { return suspicious_ > 0; }
@@ -63,11 +70,11 @@ private:
 // T above, steps; mass: kg for a unit step (n_nodes).
 double slowest_period(const Model&, const std::vector<double>& mass);
 
-// The node that has moved furthest between two places, and how far, m.
+// The node that has moved furthest between two places, and how far, m. of: the nodes that count (n_nodes); empty: all.
 struct Fastest {
   int node = 0;
   double displacement = 0;
 };
-Fastest fastest(const std::vector<Node>& from, const std::vector<Node>& to);
+Fastest fastest(const std::vector<Node>& from, const std::vector<Node>& to, const std::vector<char>& of = {});
 
 } // namespace cdem

@@ -47,11 +47,6 @@ struct RelaxResult : StageResult {
   double moving = 0;
   std::int64_t moving_block = 0;
   geom::Vec3 moving_place = geom::Vec3::Zero();
-  // The piece that is the least in balance once the model has converged (procedure/piece_balance.hpp): by which part of the forces
-  // on it, a block of it (an id) and where (undeformed, m).
-  double out_of_balance = 0;
-  std::int64_t loosest_block = 0;
-  geom::Vec3 loosest_place = geom::Vec3::Zero();
 };
 
 // Masses raised where the time step demands it (integrate/mass_scaling.hpp): at most one of the two is given.

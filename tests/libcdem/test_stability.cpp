@@ -4,6 +4,7 @@
 #include "libcdem/joint/strength_reduction.hpp"
 #include "libcdem/procedure/reduce_strength.hpp"
 #include "libcdem/procedure/stability.hpp"
+#include "libcdem/results/contact_points.hpp"
 #include "libgeom/assembly/builders.hpp"
 
 #include <catch2/catch.hpp>
@@ -176,4 +177,72 @@ TEST_CASE("a model without strength cannot be reduced", "[stability]") {
   CHECK_THROWS_WITH(cdem::reduce_strength(smooth, 1.2, {true, false}),
                     Catch::Matchers::Contains("no strength to reduce"));
   CHECK_THROWS_WITH(s.reduce_strength(0, {true, false}), Catch::Matchers::Contains("factor = 0"));
+}
+
+namespace {
+
+cdem::Joint rough(double friction_angle = phi) {
+  cdem::Joint contact = rock_joint();
+  contact.bonded = false;
+  contact.cohesion = contact.tensile_strength = 0;
+  contact.friction_angle = friction_angle;
+  return contact;
+}
+
+constexpr double incline = 21 * degree;
+
+// A block that stands and a stone, on a base that is held below.
+cdem::Simulation stone_beside_block(double size, double friction_angle) {
+  cdem::ModelSpec spec;
+  spec.bodies = {body("base", geom::grid({6, 6, 3}, {1, 1, 1}, {-3, -3, -3})),
+                 body("block", geom::grid({2, 2, 1}, {1, 1, 1}, {-2, -1, 0})),
+                 body("stone", geom::grid({size, size, size / 2}, {1, 1, 1}, {1, 0, 0}))};
+  spec.pairs = {{"base", "block", rough()}, {"base", "stone", rough(friction_angle)}};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("z-")));
+  s.gravity(gravity(g * Vec3(std::sin(incline), 0, -std::cos(incline))));
+  return s;
+}
+
+} // namespace
+
+TEST_CASE("a stone that slides beside a large block is failing, however small it is", "[stability]") {
+  for (const double size : {0.02, 0.1, 0.2, 1.0}) {
+    CAPTURE(size);
+    cdem::Simulation slides = stone_beside_block(size, std::atan(0.98 * std::tan(incline)));
+    const cdem::RelaxResult r = relax_slope(slides, 1e-5);
+    CHECK(r.verdict == Verdict::failing);
+    CHECK(r.moving_place.x() >= 1); // of the stone
+    cdem::Simulation stands = stone_beside_block(size, std::atan(1.02 * std::tan(incline)));
+    CHECK(relax_slope(stands, 1e-5).verdict == Verdict::stable);
+  }
+}
+
+TEST_CASE("a pebble follows the block that settles under it", "[stability]") {
+  constexpr double size = 0.01;
+  cdem::ModelSpec spec;
+  spec.bodies = {body("base", geom::grid({10, 10, 10}, {1, 1, 1}, {-5, -5, -10})),
+                 body("pebble", geom::grid({size, size, size / 2}, {1, 1, 1}, {0.31, 0.17, 1e-5}))};
+  spec.bodies[0].element = spec.bodies[1].element = cdem::Element::finite_volume;
+  spec.pairs = {{"base", "pebble", rough()}};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("z-")));
+  s.gravity(gravity(Vec3(0, 0, -g)));
+  REQUIRE(relax_slope(s).verdict == Verdict::stable);
+  double carried = 0; // N
+  for (const cdem::ContactPoint& point : cdem::contact_points(s.model(), s.state()))
+    carried += point.normal.norm();
+  CHECK(carried == Approx(rock().density * g * size * size * size / 2).epsilon(0.01));
+}
+
+TEST_CASE("a body that no load acts on does not keep a relaxation going", "[stability]") {
+  cdem::ModelSpec spec;
+  spec.bodies = {body("base", geom::grid({1, 1, 1}, {1, 1, 1}, {0, 0, -1})),
+                 body("stone", geom::grid({0.1, 0.1, 0.1}, {1, 1, 1}, {0.3, 0.4, 0}))};
+  spec.pairs = {{"base", "stone", rough()}};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("z-")));
+  s.traction(traction(cdem::Selection::side("x+"), Vec3(-1e6, 0, 0))); // the base swells upwards
+  s.traction(traction(cdem::Selection::side("x-"), Vec3(1e6, 0, 0)));
+  CHECK(relax_slope(s).verdict == Verdict::stable);
 }

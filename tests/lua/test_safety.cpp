@@ -140,6 +140,30 @@ assert(slope.mechanism.volume > 5 and math.abs(-slope.mechanism.displacement[3] 
   CHECK_THAT(script.read("report.json"), Contains("of_all_volume") && Contains("of_slope_blocks"));
 }
 
+TEST_CASE("a small stone has the factor of safety of a large one", "[lua][safety]") {
+  for (const char* size : {"0.05", "0.5"}) {
+    CAPTURE(size);
+    Script script(std::string("local size = ") + size + R"(
+local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 10e9, poissons_ratio = 0.2, density = 2500 }
+local m = cdem.model{ bodies = {
+  { name = "base", shape = cdem.box{ size = {6, 6, 3}, origin = {-3, -3, -3} }, material = rock },
+  { name = "block", shape = cdem.box{ size = {2, 2, 1}, origin = {-2, -1, 0} }, material = rock },
+  { name = "stone", shape = cdem.box{ size = {size, size, size / 2}, origin = {1, 0, 0} }, material = rock } },
+  contacts = { { "base", "block", cdem.coulomb{ friction_angle = 45 } },
+               { "base", "stone", cdem.coulomb{ friction_angle = 30 } } } }
+m:fix{ on = "z-" }
+local a = math.rad(21)
+m:gravity{ vector = {9.81 * math.sin(a), 0, -9.81 * math.cos(a)} }
+assert(m:relax{ residual = 1e-5 }.verdict == "stable")
+local f = cdem.factor_of_safety{ model = m, reduce = {"joints"}, lower = 1, upper = 2, tolerance = 0.02 }
+local exact = math.tan(math.rad(30)) / math.tan(a)
+assert(f.lower < exact + 0.01 and f.upper > exact - 0.01, f.lower .. " " .. f.upper)
+)");
+    CHECK(script.error() == "");
+  }
+}
+
 TEST_CASE("the tables of a factor of safety have the fields that the reference lists", "[lua][safety]") {
   const std::string search = "local f = cdem.factor_of_safety{ model = incline(35), reduce = {'joints'}, "
                              "lower = 0.9, upper = 2, tolerance = 1 }\n" +

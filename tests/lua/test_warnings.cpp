@@ -294,35 +294,26 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a relaxation tells of a stone that slides beside a block a thousand times as heavy",
+TEST_CASE("a relaxation that is cut short tells of a stone that slides where the model is in balance",
           "[lua][stability]") {
-  const auto with_friction = [](const std::string& angle, const std::string& residual) {
-    return warnings_of(
-        "local cdem = require 'cdem'\n"
-        "local rock = cdem.elastic{ youngs_modulus = 1e10, poissons_ratio = 0.2, density = 2500 }\n"
-        "local function box(name, size, x)\n"
-        "  return { name = name, shape = cdem.box{ size = {size, size, size / 2}, origin = {x, 0, 0} }, "
-        "material "
-        "= rock }\nend\n"
-        "local model = cdem.model{ bodies = { { name = 'base', material = rock,\n"
-        "  shape = cdem.box{ size = {6, 6, 3}, origin = {-3, -3, -3} } }, box('block', 2, -2), box('stone', "
-        "0.2, "
-        "1) },\n"
-        "  contacts = { {'base', 'block', cdem.coulomb{ friction_angle = 30 }},\n"
-        "    {'base', 'stone', cdem.coulomb{ friction_angle = " +
-        angle +
-        " }} } }\n"
-        "model:fix{ on = 'z-' }\n"
-        "local a = math.rad(21)\n"
-        "model:gravity{ vector = {9.81 * math.sin(a), 0, -9.81 * math.cos(a)} }\n"
-        "assert(model:relax{ residual = " +
-        residual + " }.verdict == 'stable')");
-  };
-  const auto slides = with_friction("10", "1e-5");
-  REQUIRE(slides.size() == 1);
-  CHECK_THAT(slides[0], Contains("the piece with block 3 at") && Contains("is out of balance by") &&
-                            Contains("give a smaller residual"));
-  CHECK(with_friction("22", "1e-7").empty());
+  const auto warnings = warnings_of(R"(
+local cdem = require 'cdem'
+local rock = cdem.elastic{ youngs_modulus = 1e10, poissons_ratio = 0.2, density = 2500 }
+local function box(name, size, x)
+  return { name = name, shape = cdem.box{ size = {size, size, size / 2}, origin = {x, 0, 0} }, material = rock }
+end
+local model = cdem.model{
+  bodies = { { name = 'base', material = rock, shape = cdem.box{ size = {6, 6, 3}, origin = {-3, -3, -3} } },
+             box('block', 2, -2), box('stone', 0.2, 1) },
+  contacts = { {'base', 'block', cdem.coulomb{ friction_angle = 30 }},
+               {'base', 'stone', cdem.coulomb{ friction_angle = 10 }} } }
+model:fix{ on = 'z-' }
+local a = math.rad(21)
+model:gravity{ vector = {9.81 * math.sin(a), 0, -9.81 * math.cos(a)} }
+assert(model:relax{ residual = 1e-5, max_steps = 1000 }.verdict == 'undecided'))");
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0],
+             Contains("the model as a whole is in balance, but not each of its pieces: block 3 at"));
 }
 
 TEST_CASE("a second load on a place adds to the first, and that is told", "[lua]") {

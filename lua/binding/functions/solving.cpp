@@ -4,7 +4,6 @@
 #include "lua/binding/functions/solving_stage.hpp"
 #include "lua/binding/module/record.hpp"
 
-#include "libcdem/procedure/piece_balance.hpp"
 #include "libcdem/step/stage.hpp"
 #include "libgeom/core/error.hpp"
 
@@ -49,16 +48,13 @@ void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResu
   const std::string found = "relax" + (options.note.empty() ? "" : ", " + options.note) + ": " +
                             name(r.verdict) + " after " + geom::counted(r.steps, "step") + ", residual " +
                             three_digits(r.residual);
-  if (r.verdict == Verdict::undecided)
+  if (r.verdict == Verdict::undecided && r.residual <= options.residual)
+    session.warn(found + ": not converged; the model as a whole is in balance, but not each of its pieces: " +
+                 moving_text(r) + "; raise max_steps, or look whether it moves freely");
+  else if (r.verdict == Verdict::undecided)
     session.warn(found + " above " + number_text(options.residual) +
                  ": not converged; raise max_steps, give a larger residual, or look whether something moves "
                  "freely");
-  else if (r.verdict == Verdict::stable && r.out_of_balance > out_of_balance_of_piece)
-    session.warn(found + ": in balance as a whole, but the piece with block " +
-                 std::to_string(r.loosest_block) + " at " + place_text(r.loosest_place) +
-                 " m is out of balance by " + three_digits(100 * r.out_of_balance) +
-                 " % of the forces on it: it slides, falls or is not at rest yet, which does not show beside "
-                 "so much larger bodies; give a smaller residual");
   else if (r.verdict == Verdict::failing && options.note.empty())
     session.warn(found + ": it runs away, " + moving_text(r) +
                  "; the script goes on, and result.verdict is \"failing\"");

@@ -171,9 +171,9 @@ void bind_stability(Module& m) {
            .between(0, 1)
            .standard(1e-5)
            .doc(
-               "goal of each relaxation; smaller for models of many blocks of which few slide. 1e-4 takes "
-               "far "
-               "fewer steps, but a slide whose unbalanced force is below 1e-4 of the loads passes as stable"),
+               "goal of each relaxation. 1e-4 takes far fewer steps, but passes slip within a body as stable "
+               "where its unbalanced force is below 1e-4 of the loads; each loose piece has to be in balance "
+               "for itself"),
        integer("max_steps")
            .at_least(1)
            .standard(200000)
