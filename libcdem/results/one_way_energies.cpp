@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::array<const char*, 5> one_way_names = {"damping", "friction", "breaking", "plastic",
                                                       "yielding"};
+constexpr std::size_t breaking = 2;
 
 std::array<double, 5> one_way(const EnergyLedger& e) {
   return {e.damping, e.friction, e.breaking, e.plastic, e.yielding};
@@ -37,11 +38,11 @@ ImpossibleEnergy impossible_energy(const EnergyLedger& now, double time, const O
   OneWayEnergies::Fall surplus = seen.surplus;
   deepen(surplus, now.total() - sum(one_way(now)) - now.external, time);
   ImpossibleEnergy worst{"kinetic and stored energy rose above what was given", surplus.energy, surplus.time,
-                         0};
+                         0, false};
   for (std::size_t i = 0; i < one_way_names.size(); ++i)
     if (const OneWayEnergies::Fall& fall = seen.fallen[i]; fall.energy > worst.energy)
       worst = {std::string("the energy of ") + one_way_names[i] + ", which can only rise, fell", fall.energy,
-               fall.time, 0};
+               fall.time, 0, i == breaking};
   worst.part = worst.energy > 0 ? worst.energy / now.scale() : 0;
   return worst;
 }

@@ -32,6 +32,7 @@ struct ImpossibleEnergy {
   double energy = 0; // J, > 0; 0: nothing
   double time = 0;   // s, when
   double part = 0;   // of the largest entry of the ledger
+  bool of_breaking = false;
 };
 
 // The largest of all. now, time: at present, with what is stored.

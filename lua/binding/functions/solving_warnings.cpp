@@ -232,7 +232,12 @@ void check_energy(Session& session, ModelObject& model, const Stage& stage) {
                                    " J at " + three_digits(impossible.time) + " s"
                              : "the energy balance is open by " + percent + three_digits(std::abs(gained)) +
                                    " J " + (gained > 0 ? "gained" : "lost"));
-  const Cause cause = likely_cause(model);
+  const Cause cause =
+      worst > open && impossible.of_breaking
+          ? Cause{"faces of cohesive bodies that begin to crack while they are pressed, with the energy that "
+                  "their law stores (theory, section 22)",
+                  "a smaller safety changes nothing; model:cracks() tells what cracks have taken"}
+          : likely_cause(model);
   const std::string why = "); most likely from " + cause.what + ": " + cause.advice;
   if (worst > broken_balance)
     throw SolutionError(found + why);
