@@ -49,9 +49,9 @@ CDEM_ARCHIVE(FlowPatterns, flows)
 CDEM_ARCHIVE(SlidingFriction::Sums, law, done, path, slip, contact, span, time, hops, end, way, turned, size,
              looks, joint)
 CDEM_ARCHIVE(SlidingFriction, of_blocks, blocks, seen, told)
-CDEM_ARCHIVE(RestartPoint, step, begun, breaks, wall_time, tension_before, shear_before, loop_state,
-             previous_force, spring_force, stretch, viscous, one_way, contact_step, strain_step, near, slid,
-             flows, sliding, procedure_state)
+CDEM_ARCHIVE(RestartPoint, step, begun, breaks, wall_time, tension_before, shear_before, loop_state, carried,
+             spring_force, stretch, viscous, one_way, contact_step, strain_step, near, slid, flows, sliding,
+             procedure_state)
 CDEM_ARCHIVE(SimulatedModel::End, point, step_choice, with_other_conditions)
 
 StageContext StageSequence::next() {
@@ -243,7 +243,8 @@ void StageSequence::gather_to_save() {
   if (!shares || !point)
     return;
   shares->gather_on_lead(of_.last_good);
-  shares->gather_nodes_on_lead(point->previous_force);
+  for (std::vector<Node>& of_nodes : point->carried)
+    shares->gather_nodes_on_lead(of_nodes);
   for (std::vector<geom::Vec3>* of_points : {&point->spring_force, &point->stretch, &point->viscous})
     shares->gather_points_on_lead(*of_points);
 }

@@ -8,6 +8,7 @@
 #include "libcdem/procedure/settled.hpp"
 #include "libcdem/procedure/slow_mode.hpp"
 #include "libcdem/procedure/stability.hpp"
+#include "libcdem/procedure/support_way.hpp"
 #include "libcdem/results/energy.hpp"
 #include "libcdem/step/errors.hpp"
 #include "libcdem/step/step.hpp"
@@ -22,19 +23,14 @@ namespace {
 // Weight of a step's Rayleigh quotient in the smoothed one.
 constexpr double smoothing = 0.05;
 constexpr double most_damping = 1.8;
-// Supports with a given displacement get there in this many steps.
-constexpr int support_steps = 200;
 // Without loads the residual is measured against the reactions. Moved supports that have torn their part off, and a free
 // body that springs back from its initial stress, leave none: then against this fraction of the largest reaction of the
 // stage or of the forces of the initial stress (squared norms).
 constexpr double reaction_floor2 = 1e-4;
 
-// In the steps that are left to them; then they stand.
-void lead_supports(const State& state, ResolvedConditions& r, std::int64_t step) {
+void stop_supports(ResolvedConditions& r) {
   for (HeldNode& h : r.held)
     h.prescribed = {};
-  if (r.has_target && step < support_steps)
-    aim_supports(state, r, support_steps - static_cast<int>(step));
 }
 
 // Squared norm of the initial stress's forces on free components, N2.
@@ -69,13 +65,12 @@ void require_held(const Model& model, const ResolvedConditions& r) {
 // Looks every watch_every steps of the model, where the state has just been caught up.
 class Stability {
 public:
-  Stability(const Model& model, const State& state, const std::vector<double>& mass,
-            std::int64_t moving_steps)
-      : model_(model), state_(state), watch_(slowest_period(model, mass), model.length, moving_steps),
-        displacement_(state.displacement) {}
+  Stability(const Model& model, const State& state, double period)
+      : model_(model), state_(state), watch_(period, model.length), displacement_(state.displacement) {}
 
   // has_settled: as a whole.
-  void look(std::int64_t step, double residual, const LoosePieces& loose, bool has_settled) {
+  void look(std::int64_t step, double residual, const LoosePieces& loose, bool has_settled,
+            bool supports_stand) {
     const bool lands = fall_ == Fall::falls && !loose.fall;
     if (has_settled != has_settled_ || lands) {
       watch_.start_anew();
@@ -95,6 +90,8 @@ public:
       }
     displacement_ = state_.displacement;
     path_ += fastest_.displacement;
+    if (!supports_stand)
+      watch_.wait(step);
     watch_.add({step, path_, residual * loose.of_residual, ledger.external - work_on_rest_,
                 ledger.elastic + ledger.springs - work_on_rest_, fall_ == Fall::falls});
   }
@@ -165,18 +162,23 @@ public:
       : model_(context.model), options_(options), state_(context.state), last_good_(context.last_good),
         stage_(context, kind, model_.length), masses_(model_, stage_.work.resolved.bolts),
         previous_force_(masses_.of_nodes().size()), settled_(options.residual),
-        stability_(model_, state_, masses_.of_nodes(), moving_steps_) {
+        period_(slowest_period(model_, masses_.of_nodes())), stability_(model_, state_, period_) {
     ResolvedConditions& resolved = stage_.work.resolved;
     stage_.work.contact.damps = false; // its steps are no times
     stage_.in_real_time = false;
     stage_.breaking = options.breaking;
-    stage_.carried = &previous_force_;
     update_external(resolved, state_.time);
+    stage_.carried = {&previous_force_};
+    if (context.from ? context.from->carried.size() > 1 : has_way_to_go(model_, state_, resolved)) {
+      way_ = SupportWay(masses_.of_nodes().size(), period_);
+      stage_.carried.push_back(&way_.lead());
+    }
     if (context.from)
-      previous_force_ = context.from->previous_force;
+      for (std::size_t i = 0; i < stage_.carried.size() && i < context.from->carried.size(); ++i)
+        *stage_.carried[i] = context.from->carried[i];
     else
       begin_at_rest();
-    lead_supports(state_, resolved, stage_.step);
+    stop_supports(resolved);
     Progress& goals = stage_.report.goals;
     goals.note = options.note;
     goals.trial = !options.note.empty();
@@ -215,8 +217,11 @@ public:
       slow_.forget();
       stability_.renumbered();
     }
-    if (changed || stage_.step <= moving_steps_)
-      lead_supports(state_, stage_.work.resolved, stage_.step);
+    if (changed || way_.acts()) {
+      stop_supports(stage_.work.resolved);
+      if (const double left = way_.left(); left > 0)
+        aim_supports(state_, stage_.work.resolved, left);
+    }
   }
 
   std::vector<double> loop_state() override {
@@ -230,6 +235,7 @@ public:
                                 has_settled_ ? 1.0 : 0.0};
     settled_.add_to(numbers);
     masses_.add_to(numbers);
+    way_.add_to(numbers);
     stability_.add_to(numbers);
     return numbers;
   }
@@ -244,9 +250,15 @@ public:
     };
     each_node(
         stage_.work.resolved, range,
-        [&](Range part) { relax_nodes(nodes(part), damping_, previous_force_.data() + part.begin, sums); },
+        [&](Range part) {
+          led(nodes(part), part.begin, {1, 1, 1, 0}, sums, [&](const MovingNodes& moving) {
+            relax_nodes(moving, damping_, previous_force_.data() + part.begin, sums);
+          });
+        },
         [&](const HeldNode& h) {
-          relax_held_node(nodes({h.node, h.node + 1}), h, damping_, previous_force_[h.node], sums);
+          led(nodes({h.node, h.node + 1}), h.node, h.free, sums, [&](const MovingNodes& moving) {
+            relax_held_node(moving, h, damping_, previous_force_[h.node], sums);
+          });
         });
   }
   void move_rigid(int rigid, NodeSums& sums) override {
@@ -257,22 +269,24 @@ public:
     double& reaction2 = stage_.report.sums.reaction2;
     largest_reaction2_ = std::max(largest_reaction2_, reaction2);
     reaction2 = std::max(reaction2, reaction_floor2 * largest_reaction2_);
+    way_.end_step();
   }
 
   void judge() override {
     const double residual = stage_.report.residual;
     if (judges_ && stage_.is_due(watch_every)) {
       stage_.see_whole();
-      stability_.look(stage_.step, residual, loose(), has_settled_);
+      stability_.look(stage_.step, residual, loose(), has_settled_, way_.stands());
       failing_ = stability_.watch().failing();
     }
     choose_damping(stage_.report.sums);
-    if (stage_.broken_in_step() == 0 && stage_.step > moving_steps_)
+    if (stage_.broken_in_step() == 0 && way_.stands())
       settled_.add(residual);
     else
       settled_.start_anew();
     if (stage_.broken_in_step() > 0)
       has_settled_ = false;
+    way_.choose_pace(stage_.step, residual, damping_);
     if (settled_.reached(0.5 * damping_)) {
       converged_ = loose().nodes.empty();
       has_settled_ = true;
@@ -285,6 +299,16 @@ private:
   LoosePieces loose() {
     stage_.see_surfaces(previous_force_);
     return loose_pieces(model_, state_, stage_.work, previous_force_, options_.residual);
+  }
+
+  template <class Relax>
+  void led(const MovingNodes& nodes, std::int64_t first, const Node& free, NodeSums& sums,
+           const Relax& relax) {
+    if (way_.acts())
+      way_.take_off(nodes, first);
+    relax(nodes);
+    if (way_.acts())
+      way_.put_on(nodes, first, free, previous_force_.data() + first, sums);
   }
 
   void begin_at_rest() {
@@ -325,11 +349,13 @@ private:
       lambda_ += (stage_.step < 3 ? 1.0 : smoothing) * (quotient - lambda_);
     }
     forces_known_ = true;
-    if (stage_.step > moving_steps_ && stage_.is_due(slow_mode_every)) {
+    if (way_.stands() && stage_.is_due(slow_mode_every)) {
       stage_.see_surfaces(previous_force_);
       slow_.look(state_, previous_force_, masses_.of_nodes());
     }
-    damping_ = std::min(2 * std::sqrt(std::min(lambda_, slow_.frequency2().value_or(lambda_))), most_damping);
+    damping_ = std::min(std::max(2 * std::sqrt(std::min(lambda_, slow_.frequency2().value_or(lambda_))),
+                                 way_.least_damping()),
+                        most_damping);
   }
 
   void take(const std::vector<double>& numbers) {
@@ -340,9 +366,10 @@ private:
     forces_known_ = numbers.at(4) != 0;
     slow_.take(numbers.at(5));
     has_settled_ = numbers.at(6) != 0;
-    if (forces_known_ && stage_.step > moving_steps_)
+    const std::size_t after_way = way_.take(numbers, masses_.take(numbers, settled_.take(numbers, 7)));
+    if (forces_known_ && way_.stands())
       slow_.start(state_, previous_force_);
-    stability_.take(numbers, masses_.take(numbers, settled_.take(numbers, 7)));
+    stability_.take(numbers, after_way);
   }
 
   const Model& model_;
@@ -353,7 +380,8 @@ private:
   std::vector<Node> previous_force_; // N, of the step before
   Settled settled_;
   SlowMode slow_;
-  const int moving_steps_ = stage_.work.resolved.has_target ? support_steps : 0; // of supports
+  SupportWay way_;
+  const double period_; // steps, the slowest
   Stability stability_;
   // Without supports nothing could hold the model: a mistake, that ends with an error.
   const bool judges_ = !stage_.work.resolved.held.empty();

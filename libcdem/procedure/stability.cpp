@@ -85,7 +85,7 @@ bool StabilityWatch::runs_away() const {
 }
 
 void StabilityWatch::add_to(std::vector<double>& loop_state) const {
-  loop_state.push_back(suspicious_);
+  loop_state.insert(loop_state.end(), {static_cast<double>(suspicious_), static_cast<double>(waiting_)});
   for (const StabilityLook& look : looks_)
     loop_state.insert(loop_state.end(), {static_cast<double>(look.step), look.path, look.residual, look.work,
                                          look.stored, look.falls ? 1.0 : 0.0});
@@ -93,8 +93,9 @@ void StabilityWatch::add_to(std::vector<double>& loop_state) const {
 
 void StabilityWatch::take(const std::vector<double>& loop_state, std::size_t from) {
   suspicious_ = static_cast<int>(loop_state.at(from));
+  waiting_ = static_cast<std::int64_t>(loop_state.at(from + 1));
   looks_.clear();
-  for (std::size_t i = from + 1; i + 6 <= loop_state.size(); i += 6)
+  for (std::size_t i = from + 2; i + 6 <= loop_state.size(); i += 6)
     looks_.push_back({static_cast<std::int64_t>(loop_state[i]), loop_state[i + 1], loop_state[i + 2],
                       loop_state[i + 3], loop_state[i + 4], loop_state[i + 5] != 0});
 }

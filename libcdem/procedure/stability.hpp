@@ -43,11 +43,11 @@ struct StabilityLook {
 // Looks are added at equal distances.
 class StabilityWatch {
 public:
-  // waiting_steps: looks before that step are not added (supports that are moved have arrived).
   // length: L, m.
-  StabilityWatch(double period, double length, std::int64_t waiting_steps)
-      : period_(period), length_(length), waiting_(waiting_steps) {}
+  StabilityWatch(double period, double length) : period_(period), length_(length) {}
 
+  // Looks up to this step are not added: supports are still moved.
+  void wait(std::int64_t step) { waiting_ = step; }
   void add(const StabilityLook&);
   void start_anew(); // something else moves
   bool failing() const { return suspicious_ >= 3; }
@@ -62,7 +62,7 @@ private:
   bool runs_away() const;
 
   double period_, length_;
-  std::int64_t waiting_;
+  std::int64_t waiting_ = 0;
   int suspicious_ = 0; // looks in a row
   std::vector<StabilityLook> looks_;
 };

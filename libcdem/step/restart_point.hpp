@@ -28,7 +28,7 @@ struct RestartPoint {
   double wall_time = 0;   // s, of the stage so far
   std::int64_t broken_tension_before = 0, broken_shear_before = 0; // when the stage began
   std::vector<double> loop_state;                                  // numbers of the stage's own loop
-  std::vector<Node> previous_force;                                // N, of a relaxation (n_nodes)
+  std::vector<std::vector<Node>> carried;                          // Stage::carried (n_nodes each)
   // Those of the BondWork: what broken and softening springs lose is counted from the step before.
   std::vector<geom::Vec3> spring_force, stretch, viscous; // N, m, N (n_points)
   OneWayEnergies one_way;                                 // in the log so far

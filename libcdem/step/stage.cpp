@@ -472,6 +472,11 @@ void Stage::see_whole() {
   work.shared->gather(context_.state);
 }
 
+void Stage::gather_carried() {
+  for (std::vector<Node>* of_nodes : carried)
+    work.shared->shares().gather_nodes(*of_nodes);
+}
+
 void Stage::see_surfaces(std::vector<Node>& by_node) {
   work.shared->gather_surfaces(context_.state);
   work.shared->shares().gather_nodes(by_node);

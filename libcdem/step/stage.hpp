@@ -50,9 +50,9 @@ public:
   std::function<void()> scale_masses; // after nodes have been freed; may be empty
   // Ends with a SolutionError where broken faces no longer stand for the pieces' contact.
   bool follows_fragments = false;
-  std::vector<Node>* carried = nullptr; // by node, that the procedure carries beside the State; may be null
-  EscapeLimits escapes;                 // where pieces have left the model
-  std::vector<TimedLook> looks;         // after a step
+  std::vector<std::vector<Node>*> carried; // by node, that the procedure carries beside the State
+  EscapeLimits escapes;                    // where pieces have left the model
+  std::vector<TimedLook> looks;            // after a step
   struct Report {
     NodeSums sums; // of the last step
     double residual = 0;
@@ -93,6 +93,7 @@ public:
 
   // The state of all ranks, for who looks at the whole of it, or at what a search for contacts reads and an array by node beside it.
   void see_whole();
+  void gather_carried();
   void see_surfaces(std::vector<Node>& by_node); // where nodes are, and which bonds hold
 
   // Brings contacts and the stress of meshes up to where the nodes are; before a state is kept or handed out.

@@ -89,6 +89,13 @@ void Stage::change_nodes(Freed freed) {
   const std::vector<int> slots = model.mesh.tet_slot;
   const FlowPatterns flows = flow_patterns(work.resolved);
   const std::vector<int> new_node = new_nodes_of_unchanged(model, freed.model);
+  gather_carried();
+  for (std::vector<Node>* of_nodes : carried) {
+    const std::vector<Node> before = std::move(*of_nodes);
+    of_nodes->clear();
+    for (const int node : freed.old_node)
+      of_nodes->push_back(before[node]);
+  }
   renew_row_sums(model, freed.model, freed.old_node, freed.tets);
   *context_.changing = std::move(freed.model);
   state = std::move(freed.state);
@@ -155,6 +162,7 @@ bool Stage::renew_interfaces() {
   State& state = context_.state;
   synchronise_contacts(context_.log);
   see_whole();
+  gather_carried();
   BondWork before = std::move(work.bond);
   shares_.gather(before);
   for (const int i : slid_)

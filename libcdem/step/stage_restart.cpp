@@ -25,8 +25,7 @@ void Stage::keep_restart_point(std::vector<double> loop_state) {
   if (can_be_left() && shares_.count_loads()) {
     see_whole();
     shares_.gather(work.bond);
-    if (carried)
-      work.shared->shares().gather_nodes(*carried);
+    gather_carried();
     shares_.share_anew(moving(), here());
   }
   keep_last_good();
@@ -61,13 +60,14 @@ void Stage::keep_end(std::vector<double> loop_state) {
 }
 
 void Stage::note(RestartPoint& point, std::vector<double> loop_state) const {
-  const std::vector<Node> none, &previous_force = carried ? *carried : none;
   point.begun = true;
   point.breaks = context_.log.breaks.size();
   point.one_way = context_.log.one_way;
   point.loop_state = std::move(loop_state);
   const StateShares& shares = work.shared->shares();
-  StateShares::copy(previous_force, point.previous_force, shares.nodes());
+  point.carried.resize(carried.size());
+  for (std::size_t i = 0; i < carried.size(); ++i)
+    StateShares::copy(*carried[i], point.carried[i], shares.nodes());
   StateShares::copy(work.bond.spring_force, point.spring_force, shares.points());
   StateShares::copy(work.bond.stretch, point.stretch, shares.points());
   StateShares::copy(work.bond.viscous, point.viscous, shares.points());

@@ -1,5 +1,6 @@
 // Loads and supports: what arrives at the nodes, and what comes back at the supports.
 #include "libcdem/bond/release.hpp"
+#include "tests/libcdem/boxes.hpp"
 #include "tests/libcdem/columns.hpp"
 #include "tests/libcdem/going_on.hpp"
 
@@ -241,6 +242,76 @@ TEST_CASE("a given displacement of a bar's end takes E A u over L with blocks an
   CHECK(s.reaction(cdem::Selection::side("x+")).x() == Approx(force).epsilon(1e-7));
   CHECK(s.reaction(cdem::Selection::side("x-")).x() == Approx(-force).epsilon(1e-7));
   CHECK(s.mean("displacement.x", cdem::Selection::side("x+")) == Approx(1e-5).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "a bar pulled near its strength by its end carries E strain A, whatever its length and the increments",
+    "[loads][relax]") {
+  const double tension = 3e6, side = 0.2;
+  cdem::Joint joint = rock_joint();
+  joint.tensile_strength = tension;
+  joint.cohesion = 3 * tension;
+  joint.normal_stiffness = joint.shear_stiffness = 1e13;
+  const bool is_mesh = GENERATE(false, true);
+  const int n = GENERATE(20, 60);
+  const auto [part, increments] = GENERATE(std::pair{0.3, 1}, std::pair{0.9, 1}, std::pair{0.9, 3});
+  CAPTURE(is_mesh, n, part, increments);
+  const double length = 0.1 * n;
+  cdem::ModelSpec spec;
+  cdem::Bonding all;
+  all.kind = cdem::BondKind::cohesive;
+  all.everywhere = true;
+  if (is_mesh)
+    spec.bodies = {meshed("bar", geom::box_mesh({length, side, side}, {n, 2, 2}), all, rock(), joint)};
+  else
+    spec.bodies = {body("bar", geom::grid({length, side, side}, {n, 1, 1}), rock(), joint)};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(cdem::Selection::side("x-"), "x"));
+  s.fix(fixed(at_place({0, 0, 0}), "yz"));
+  s.fix(fixed(at_place({0, side, 0}), "z"));
+  cdem::RelaxOptions options;
+  options.residual = 1e-5;
+  const double compliance =
+      length / rock().youngs_modulus + (is_mesh ? 0 : (n - 1) / *joint.normal_stiffness); // m/Pa
+  for (int i = 1; i <= increments; ++i) {
+    cdem::Fix pull = fixed(cdem::Selection::side("x+"), "x");
+    pull.displacement = Vec3(part * tension * compliance * i / increments, 0, 0);
+    s.fix(pull);
+    REQUIRE(s.relax(options).converged);
+  }
+  CHECK(s.counts().broken_tension + s.counts().broken_shear == 0);
+  CHECK(s.reaction(cdem::Selection::side("x+")).x() == Approx(part * tension * side * side).epsilon(1e-3));
+}
+
+TEST_CASE("a moved base carries the block on it, and a block that is pushed slides at its friction",
+          "[loads][relax]") {
+  cdem::ModelSpec spec;
+  spec.bodies = {meshed("base", box_at({1.2, 1, 0.4}, {6, 5, 2}, geom::Mat3::Identity(), {0.5, 0.5, -0.2})),
+                 meshed("block", box_at({1, 1, 0.4}, {5, 5, 2}, geom::Mat3::Identity(), {0.5, 0.5, 0.2}))};
+  spec.pairs = {{"base", "block", friction(30)}};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(body_of("base")));
+  s.gravity(gravity({0, 0, -9.81}));
+  cdem::RelaxOptions options;
+  options.residual = 1e-5;
+  REQUIRE(s.relax(options).converged);
+  const double weight = rock().density * 9.81 * 0.4;
+  SECTION("carried") {
+    cdem::Fix base = fixed(body_of("base"));
+    base.displacement = Vec3(5e-3, 0, 0);
+    s.fix(base);
+    REQUIRE(s.relax(options).converged);
+    CHECK(s.mean("displacement.x", body_of("block")) == Approx(5e-3).epsilon(1e-3));
+  }
+  SECTION("pushed") {
+    const cdem::Selection side = cdem::Selection::where(
+        [](const Vec3& x) { return x.x() < 1e-6 && x.z() > 0.01 && x.x() > -1e-6; }, "a side");
+    cdem::Fix push = fixed(side, "x");
+    push.displacement = Vec3(2e-3, 0, 0);
+    s.fix(push);
+    REQUIRE(s.relax(options).converged);
+    CHECK(s.reaction(side).x() == Approx(weight * std::tan(30 * degree)).epsilon(0.01));
+  }
 }
 
 TEST_CASE("a support with a given velocity moves with it and a later release wins over a fix", "[loads]") {

@@ -284,9 +284,7 @@ TEST_CASE("a block between smooth platens bears 2 c cos(phi) / (1 - sin(phi)) an
   }
 }
 
-TEST_CASE("relaxed in increments a block ends on its strength: what a relaxation swings past comes back "
-          "elastically",
-          "[plasticity][relax]") {
+TEST_CASE("relaxed in one increment or many a block ends on its strength", "[plasticity][relax]") {
   Plasticity law = soil(30, 0, 1e6);
   law.cohesion = law.residual_cohesion = 10e6;
   const double strength = 2 * 10e6 * std::sqrt(3.0), elastic = strength / rock().youngs_modulus;
@@ -304,9 +302,8 @@ TEST_CASE("relaxed in increments a block ends on its strength: what a relaxation
   };
   const double one = short_of(1), four = short_of(4), sixteen = short_of(16);
   CAPTURE(one, four, sixteen);
-  CHECK(one > 0);
-  CHECK(four < 0.6 * one);
-  CHECK(sixteen < 0.4 * four);
+  CHECK(std::abs(one) < 0.01);
+  CHECK(std::abs(four) < 0.01);
   CHECK(std::abs(sixteen) < 0.01);
 }
 

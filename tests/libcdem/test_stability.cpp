@@ -23,7 +23,7 @@ namespace {
 std::int64_t found_failing(double period, const std::function<double(double)>& path,
                            const std::function<double(double)>& residual,
                            const std::function<double(double)>& stored) {
-  cdem::StabilityWatch watch(period, 1e3, 0);
+  cdem::StabilityWatch watch(period, 1e3);
   for (int look = 1; look <= 200; ++look) {
     const double n = 200.0 * look;
     watch.add({200 * look, path(n), residual(n), path(n), stored(n)});
@@ -95,7 +95,7 @@ TEST_CASE("slow convergence and the swings of an elastic body are not failing", 
       const double half = std::floor(n * w / pi);
       return 2 * half + (std::fmod(half, 2) == 0 ? swing(n) : 2 - swing(n));
     };
-    cdem::StabilityWatch watch(1500, 1e3, 0);
+    cdem::StabilityWatch watch(1500, 1e3);
     bool failing = false;
     for (int look = 1; look <= 300; ++look) {
       const double n = 200.0 * look;

@@ -104,7 +104,8 @@ void require_whole(const Model& model, const RunLog& log, const RestartPoint& po
     require(flow.corners.size() <= flow.forces.size(), "restart.flows", count(flow.corners.size()));
   }
   length("restart.near", point.near.size(), model.mesh.batches.size());
-  length("restart.previous_force", point.previous_force.size(), model.node_position.size());
+  for (const std::vector<Node>& of_nodes : point.carried)
+    length("restart.carried", of_nodes.size(), model.node_position.size());
   length("restart.spring_force", point.spring_force.size(), model.points.size());
   length("restart.stretch", point.stretch.size(), model.points.size());
   length("restart.viscous", point.viscous.size(), model.points.size());
