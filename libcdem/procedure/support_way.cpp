@@ -1,5 +1,7 @@
 #include "libcdem/procedure/support_way.hpp"
 
+#include "libgeom/core/portable.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +30,7 @@ void SupportWay::choose_pace(std::int64_t step, double residual, double damping)
     return;
   }
   if (old > 0) {
-    pace_ = std::max(first_pace, old * std::exp(rate * std::max(-1.0, 1 - residual / balance)));
+    pace_ = std::max(first_pace, old * geom::portable::exp(rate * std::max(-1.0, 1 - residual / balance)));
   } else if (residual <= balance) {
     pace_ = first_pace;
     before_ = std::max(least_before, of_residual * residual);
