@@ -9,15 +9,16 @@ namespace cdem {
 
 // Sums of one chunk of blocks, over its free degrees of freedom.
 struct NodeSums {
-  double residual2 = 0; // N2, out-of-balance forces
-  double applied2 = 0;  // N2, external forces
-  double reaction2 = 0; // N2, out-of-balance forces where nodes are held
-  double stiffness = 0; // J, -du . dF
-  double inertia = 0;   // J, du . M du
-  double kinetic = 0;   // J
-  double external = 0;  // J, this step
-  double damping = 0;   // J, this step
-  double radiated = 0;  // J, this step, by dashpots
+  double residual2 = 0;  // N2, out-of-balance forces
+  double applied2 = 0;   // N2, external forces
+  double reaction2 = 0;  // N2, out-of-balance forces where nodes are held
+  double stiffness = 0;  // J, -du . dF
+  double inertia = 0;    // J, du . M du
+  double kinetic = 0;    // J
+  double external = 0;   // J, this step
+  double damping = 0;    // J, this step
+  double radiated = 0;   // J, this step, by dashpots
+  double fictitious = 0; // J, this step, by leading nodes with supports
 };
 
 // What acts on nodes beside the stress of elements.

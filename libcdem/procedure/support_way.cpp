@@ -74,7 +74,7 @@ void SupportWay::put_on(const MovingNodes& nodes, std::int64_t first, const Node
     displacement += lead;
     const double mean = 0.5 * (before + lead);
     sums.external += load * mean;
-    sums.damping += f * mean;
+    sums.fictitious += f * mean;
   };
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     const Node load = nodes.external ? nodes.external[i] : Node{};

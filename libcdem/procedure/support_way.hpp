@@ -16,7 +16,7 @@
 //
 // It is a mean over the last quarter of the way. R_0 is the residual at the start, whose motion is not of the way. The
 // damping c is at least 4 pi / T: with b < c / 2 every mode that the lead drives is damped. The net force F on a node does the work
-// F . r l, which is counted under damping.
+// F . r l, which is fictitious.
 #pragma once
 
 #include "libcdem/integrate/move_nodes.hpp"

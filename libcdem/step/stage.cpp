@@ -357,6 +357,7 @@ void Stage::record_step() {
   spent.external_peak = std::max(spent.external_peak, std::abs(spent.external));
   spent.damping += report.sums.damping;
   spent.radiated += report.sums.radiated;
+  spent.fictitious += report.sums.fictitious;
   context_.log.one_way.look(spent, context_.state.time);
 }
 
