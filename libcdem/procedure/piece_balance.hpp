@@ -19,7 +19,7 @@ struct LoosePieces {
   std::vector<Node> load; // N, on all nodes
 };
 
-// What touches nothing may fall onto what has sunk under it: such pieces are told only where no other is out of balance.
+// Pieces that touch nothing may fall onto others that have sunk: they are told only where no other piece is out of balance.
 // goal: of the residual; a larger one than 0.001 takes its place. force: N, net (n_nodes), of all ranks; what else acts is in the
 // workspace. All ranks call it together, where the state's surfaces are whole.
 LoosePieces loose_pieces(const Model&, const State&, Workspace&, const std::vector<Node>& force, double goal);

@@ -6,8 +6,8 @@
 //
 //   r+ = r exp(max(-1, 1 - R / 0.005) / 40),   1e-6 <= r <= (1 - s) / 40 + 1e-4
 //
-// Supports wait while forces are out of balance, and arrive softly. What has not arrived by 40 slowest periods T is drawn
-// there in as many again.
+// Supports wait while forces are out of balance, and arrive softly. After 40 slowest periods T they are drawn along the rest of
+// their way in as many again.
 //
 // Free nodes are led: else drag and inertia would strain the neighbours of supports alone. The velocity of a node is that of
 // dynamic relaxation, w, and the lead r l. The displacement l per way is learned from what w adds to it:
