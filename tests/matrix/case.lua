@@ -210,7 +210,9 @@ for _ = 1, 3 + math.floor(random(0, 2.999)) do
   local on = "b" .. (1 + math.floor(random(0, count) * 0.999999))
   local steps, safety, breaking = math.floor(random(60, 260)), pick{ 0.4, 0.9 }, chance(0.85)
   if what == "relax" and with("relax", 1) then
-    try("relax", function() solve{ residual = 1e-3, max_steps = 150, breaking = breaking } end)
+    local moved = with_of_seed("moved", 3)
+    if moved then model:fix{ on = "floor", displacement = { 1e-4, 0, -5e-5 } } end
+    try("relax", function() solve{ residual = 1e-3, max_steps = moved and 600 or 150, breaking = breaking } end)
   elseif what == "make_rigid" and with("make_rigid", 1) then
     try(what, function() model:make_rigid{ on = on } end)
   elseif what == "make_deformable" and with("make_deformable", 1) then

@@ -21,7 +21,7 @@ here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf -- "$work"' EXIT
 features="softening weibull rate zones rigid_floor restitution velocity spin traction flow water waves gas probe relax make_rigid
-make_deformable remove gradual"
+make_deformable remove gradual moved"
 
 grep -q avx2 /proc/cpuinfo || ways=${ways//avx2/}
 
