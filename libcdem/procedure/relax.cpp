@@ -3,6 +3,7 @@
 #include "libcdem/bond/spring_forces.hpp"
 #include "libcdem/integrate/move_held_nodes.hpp"
 #include "libcdem/integrate/move_rigid.hpp"
+#include "libcdem/parallel/exact_sum.hpp"
 #include "libcdem/procedure/fictitious_masses.hpp"
 #include "libcdem/procedure/piece_balance.hpp"
 #include "libcdem/procedure/settled.hpp"
@@ -27,6 +28,16 @@ constexpr double most_damping = 1.8;
 // body that springs back from its initial stress, leave none: then against this fraction of the largest reaction of the
 // stage or of the forces of the initial stress (squared norms).
 constexpr double reaction_floor2 = 1e-4;
+// Forces that move nodes by this part of the model's length in a step are of rounding, and no reactions either.
+constexpr double rounding = 1e-13;
+
+// N2, squared norm; mass: kg for a unit step (n_nodes).
+double rounding_forces2(const std::vector<double>& mass, double length) {
+  double sum = 0;
+  for (const double m : mass)
+    sum += m * m;
+  return sum * (rounding * length) * (rounding * length);
+}
 
 void stop_supports(ResolvedConditions& r) {
   for (HeldNode& h : r.held)
@@ -162,7 +173,10 @@ public:
       : model_(context.model), options_(options), state_(context.state), last_good_(context.last_good),
         stage_(context, kind, model_.length), masses_(model_, stage_.work.resolved.bolts),
         previous_force_(masses_.of_nodes().size()), settled_(options.residual),
-        period_(slowest_period(model_, masses_.of_nodes())), stability_(model_, state_, period_) {
+        period_(context.from ? context.from->loop_state.at(0) : slowest_period(model_, masses_.of_nodes())),
+        rounding2_(context.from ? context.from->loop_state.at(1)
+                                : rounding_forces2(masses_.of_nodes(), model_.length)),
+        stability_(model_, state_, period_) {
     ResolvedConditions& resolved = stage_.work.resolved;
     stage_.work.contact.damps = false; // its steps are no times
     stage_.in_real_time = false;
@@ -171,7 +185,8 @@ public:
     stage_.carried = {&previous_force_};
     if (context.from ? context.from->carried.size() > 1 : has_way_to_go(model_, state_, resolved)) {
       way_ = SupportWay(masses_.of_nodes().size(), period_);
-      stage_.carried.push_back(&way_.lead());
+      contact_force_.resize(masses_.of_nodes().size());
+      stage_.carried.insert(stage_.carried.end(), {&way_.lead(), &contact_force_});
     }
     if (context.from)
       for (std::size_t i = 0; i < stage_.carried.size() && i < context.from->carried.size(); ++i)
@@ -200,6 +215,7 @@ public:
     static_cast<StageResult&>(result) = stage_.finish();
     result.converged = converged_;
     result.verdict = converged_ ? Verdict::stable : failing_ ? Verdict::failing : Verdict::undecided;
+    result.broken_while_drawn = broken_while_drawn_;
     stability_.describe(result);
     return result;
   }
@@ -219,20 +235,24 @@ public:
     }
     if (changed || way_.acts()) {
       stop_supports(stage_.work.resolved);
-      if (const double left = way_.left(); left > 0)
+      if (const double left = way_.left(); left != 0)
         aim_supports(state_, stage_.work.resolved, left);
     }
+    stage_.breaking = options_.breaking;
   }
 
   std::vector<double> loop_state() override {
     kept_kinetic_ = stage_.report.sums.kinetic;
-    std::vector<double> numbers{lambda_,
+    std::vector<double> numbers{period_,
+                                rounding2_,
+                                lambda_,
                                 damping_,
                                 largest_reaction2_,
                                 kept_kinetic_,
                                 forces_known_ ? 1.0 : 0.0,
                                 slow_.frequency2().value_or(-1),
-                                has_settled_ ? 1.0 : 0.0};
+                                has_settled_ ? 1.0 : 0.0,
+                                static_cast<double>(broken_while_drawn_)};
     settled_.add_to(numbers);
     masses_.add_to(numbers);
     way_.add_to(numbers);
@@ -240,7 +260,13 @@ public:
     return numbers;
   }
 
-  void take_contacts(double /*longest_step*/) override { masses_.follow(model_, stage_.work.contact.loads); }
+  void take_contacts(double /*longest_step*/) override {
+    masses_.follow(model_, stage_.work.contact.loads);
+    if (!way_.acts() || !way_.see_contacts(change_of_contacts2()))
+      return;
+    aim_supports(state_, stage_.work.resolved, way_.left());
+    stage_.breaking = false;
+  }
   void update_loads() override { stage_.update_loads(nullptr); }
 
   void move(Range range, const Node* force, NodeSums& sums) override {
@@ -251,14 +277,15 @@ public:
     each_node(
         stage_.work.resolved, range,
         [&](Range part) {
-          led(nodes(part), part.begin, {1, 1, 1, 0}, sums, [&](const MovingNodes& moving) {
+          led(nodes(part), part.begin, {1, 1, 1, 0}, {}, sums, [&](const MovingNodes& moving) {
             relax_nodes(moving, damping_, previous_force_.data() + part.begin, sums);
           });
         },
         [&](const HeldNode& h) {
-          led(nodes({h.node, h.node + 1}), h.node, h.free, sums, [&](const MovingNodes& moving) {
-            relax_held_node(moving, h, damping_, previous_force_[h.node], sums);
-          });
+          led(nodes({h.node, h.node + 1}), h.node, h.free, h.prescribed, sums,
+              [&](const MovingNodes& moving) {
+                relax_held_node(moving, h, damping_, previous_force_[h.node], sums);
+              });
         });
   }
   void move_rigid(int rigid, NodeSums& sums) override {
@@ -268,7 +295,7 @@ public:
   void end_step() override {
     double& reaction2 = stage_.report.sums.reaction2;
     largest_reaction2_ = std::max(largest_reaction2_, reaction2);
-    reaction2 = std::max(reaction2, reaction_floor2 * largest_reaction2_);
+    reaction2 = std::max({reaction2, reaction_floor2 * largest_reaction2_, rounding2_});
     way_.end_step();
   }
 
@@ -286,7 +313,9 @@ public:
       settled_.start_anew();
     if (stage_.broken_in_step() > 0)
       has_settled_ = false;
-    way_.choose_pace(stage_.step, residual, damping_);
+    if (way_.drawn())
+      broken_while_drawn_ += stage_.broken_in_step();
+    way_.choose_pace(residual, damping_, stage_.report.sums);
     if (settled_.reached(0.5 * damping_)) {
       converged_ = loose().nodes.empty();
       has_settled_ = true;
@@ -301,9 +330,31 @@ private:
     return loose_pieces(model_, state_, stage_.work, previous_force_, options_.residual);
   }
 
+  // N2, since the step before, squared norm.
+  double change_of_contacts2() {
+    const std::vector<Node>& force = stage_.work.contact.loads.force;
+    if (force.empty())
+      return 0;
+    ExactSums<1> sum;
+    const Range own = stage_.work.part().nodes();
+    for (std::int64_t i = own.begin; i < own.end; ++i) {
+      Node& before = contact_force_[i];
+      const double x = force[i].x - before.x, y = force[i].y - before.y, z = force[i].z - before.z;
+      if (const double change2 = x * x + y * y + z * z; change2 != 0)
+        sum.add(0, change2);
+      before = force[i];
+    }
+    ranks().sum(sum.data(), ExactSums<1>::size());
+    return sum.value(0);
+  }
+
   template <class Relax>
-  void led(const MovingNodes& nodes, std::int64_t first, const Node& free, NodeSums& sums,
-           const Relax& relax) {
+  void led(const MovingNodes& nodes, std::int64_t first, const Node& free, const Node& prescribed,
+           NodeSums& sums, const Relax& relax) {
+    if (way_.takes_back()) {
+      way_.step_back(nodes, first, free, prescribed, previous_force_.data() + first, sums);
+      return;
+    }
     if (way_.acts())
       way_.take_off(nodes, first);
     relax(nodes);
@@ -359,14 +410,15 @@ private:
   }
 
   void take(const std::vector<double>& numbers) {
-    lambda_ = numbers.at(0);
-    damping_ = numbers.at(1);
-    largest_reaction2_ = numbers.at(2);
-    stage_.report.sums.kinetic = numbers.at(3);
-    forces_known_ = numbers.at(4) != 0;
-    slow_.take(numbers.at(5));
-    has_settled_ = numbers.at(6) != 0;
-    const std::size_t after_way = way_.take(numbers, masses_.take(numbers, settled_.take(numbers, 7)));
+    lambda_ = numbers.at(2);
+    damping_ = numbers.at(3);
+    largest_reaction2_ = numbers.at(4);
+    stage_.report.sums.kinetic = numbers.at(5);
+    forces_known_ = numbers.at(6) != 0;
+    slow_.take(numbers.at(7));
+    has_settled_ = numbers.at(8) != 0;
+    broken_while_drawn_ = static_cast<std::int64_t>(numbers.at(9));
+    const std::size_t after_way = way_.take(numbers, masses_.take(numbers, settled_.take(numbers, 10)));
     if (forces_known_ && way_.stands())
       slow_.start(state_, previous_force_);
     stability_.take(numbers, after_way);
@@ -381,13 +433,16 @@ private:
   Settled settled_;
   SlowMode slow_;
   SupportWay way_;
-  const double period_; // steps, the slowest
+  std::vector<Node> contact_force_; // N, of the step before; empty: no support is moved
+  const double period_;             // steps, the slowest; of the model that the relaxation began with
+  const double rounding2_;          // N2
   Stability stability_;
   // Without supports nothing could hold the model: a mistake, that ends with an error.
   const bool judges_ = !stage_.work.resolved.held.empty();
   bool failing_ = false, converged_ = false;
-  bool has_settled_ = false;  // as a whole, though a piece may not be in balance
-  bool forces_known_ = false; // of the step before
+  std::int64_t broken_while_drawn_ = 0; // bonds
+  bool has_settled_ = false;            // as a whole, though a piece may not be in balance
+  bool forces_known_ = false;           // of the step before
   double lambda_ = 0, damping_ = 0, largest_reaction2_ = 0;
   double kept_kinetic_ = 0; // J, of the state that was kept last
 };

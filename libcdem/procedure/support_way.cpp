@@ -1,5 +1,6 @@
 #include "libcdem/procedure/support_way.hpp"
 
+#include "libcdem/step/stage.hpp"
 #include "libgeom/core/portable.hpp"
 
 #include <algorithm>
@@ -8,11 +9,13 @@
 namespace cdem {
 namespace {
 
-constexpr double balance = 0.005; // residual
-constexpr double rate = 1.0 / 40; // per step
-constexpr double first_pace = 1e-6, last_pace = 1e-4;
+constexpr double balance = 0.005;     // residual
+constexpr double contact_jump = 0.05; // of the loads
+constexpr double rate = 1.0 / 40;     // per step
+constexpr double least_pace = 1e-9, first_pace = 1e-6, arrival_pace = 1e-4;
+constexpr double slowed_down = 0.125;
 constexpr double recent = 0.25; // part of the way
-constexpr double least_before = 1e-5, of_residual = 100;
+constexpr double least_before = 1e-5, of_residual = 100, steps_before = 100;
 constexpr double most_learning = 0.25; // of the damping
 constexpr double patience = 40;        // slowest periods
 
@@ -22,33 +25,51 @@ double SupportWay::least_damping() const {
   return way_ < 1 ? 4 * M_PI / period_ : 0;
 }
 
-void SupportWay::choose_pace(std::int64_t step, double residual, double damping) {
+void SupportWay::choose_pace(double residual, double damping, const NodeSums& sums) {
   const double old = pace_;
   growth_ = learning_ = 0;
+  drawn_ = false;
+  last_pace_ = pace_;
+  loads2_ = residual_reference2(sums);
   if (way_ >= 1) {
     pace_ = 0;
     return;
   }
-  if (old > 0) {
-    pace_ = std::max(first_pace, old * geom::portable::exp(rate * std::max(-1.0, 1 - residual / balance)));
+  ++steps_;
+  if (old < 0) {
+    pace_ = std::max(least_pace, -slowed_down * old);
+    learned_from_ = way_ - steps_before * pace_;
+  } else if (old > 0) {
+    pace_ = residual > balance ? std::max(std::min(old, first_pace), old * balance / residual)
+                               : old * geom::portable::exp(rate * (1 - residual / balance));
   } else if (residual <= balance) {
     pace_ = first_pace;
-    before_ = std::max(least_before, of_residual * residual);
+    learned_from_ = -std::max(least_before, of_residual * residual);
   }
-  pace_ = std::min({pace_, rate * (1 - way_) + last_pace, 1 - way_});
-  const double late = std::clamp(static_cast<double>(step + 1) / (patience * period_) - 1, 0.0, 1.0);
-  const double least = late * late - way_;
+  pace_ = std::min({pace_, rate * (1 - way_) + arrival_pace, 1 - way_});
+  const double least = late() * late() - way_;
   if (least > pace_) {
-    pace_ = least;
+    pace_ = std::min(least, 1 - way_);
+    drawn_ = true;
   } else if (pace_ > 0) {
-    growth_ = old > 0 ? pace_ / old : 0;
-    learning_ = std::min(pace_ / (recent * (way_ + before_)), most_learning * damping);
+    growth_ = old != 0 ? pace_ / old : 0;
+    learning_ = std::min(pace_ / (recent * (way_ - learned_from_)), most_learning * damping);
   }
   acts_ = acts_ || pace_ > 0;
 }
 
+double SupportWay::late() const {
+  return std::clamp(steps_ / (patience * period_) - 1, 0.0, 1.0);
+}
+
+bool SupportWay::see_contacts(double change2) {
+  if (last_pace_ > least_pace && pace_ > 0 && late() == 0 && change2 > contact_jump * contact_jump * loads2_)
+    pace_ = -last_pace_;
+  return takes_back();
+}
+
 void SupportWay::end_step() {
-  acts_ = acts_ && pace_ > 0; // one step more takes the lead off
+  acts_ = acts_ && pace_ != 0; // one step more takes the lead off
   way_ = pace_ >= 1 - way_ ? 1 : way_ + pace_;
 }
 
@@ -86,18 +107,58 @@ void SupportWay::put_on(const MovingNodes& nodes, std::int64_t first, const Node
   }
 }
 
+void SupportWay::step_back(const MovingNodes& nodes, std::int64_t first, const Node& free,
+                           const Node& prescribed, Node* previous_force, NodeSums& sums) {
+  const auto back = [&](double is_free, double given, double mass, double f, double load, double& lead,
+                        double& velocity, double& displacement) {
+    const double before = velocity, w = before - lead;
+    velocity = is_free != 0 ? -lead : given;
+    displacement += velocity;
+    const double mean = 0.5 * (before + velocity);
+    if (is_free == 0) {
+      sums.reaction2 += f * f;
+      sums.external += (load - f) * mean;
+      return;
+    }
+    lead = velocity;
+    sums.residual2 += f * f;
+    sums.applied2 += load * load;
+    sums.external += load * mean;
+    sums.fictitious += f * mean + 0.5 * mass * w * w;
+  };
+  MovingNodes node = nodes;
+  for (std::int64_t i = 0; i < nodes.count; ++i) {
+    const auto at = [&](const Node* all) { return all ? all + i : nullptr; };
+    node.force = at(nodes.force);
+    node.internal = at(nodes.internal);
+    node.external = at(nodes.external);
+    node.contact = at(nodes.contact);
+    const auto [f, load] = held_node_forces(node);
+    Node &l = lead_[first + i], &v = nodes.velocity[i], &u = nodes.displacement[i];
+    back(free.x, prescribed.x, nodes.mass[i], f.x, load.x, l.x, v.x, u.x);
+    back(free.y, prescribed.y, nodes.mass[i], f.y, load.y, l.y, v.y, u.y);
+    back(free.z, prescribed.z, nodes.mass[i], f.z, load.z, l.z, v.z, u.z);
+    previous_force[i] = f;
+  }
+}
+
 void SupportWay::add_to(std::vector<double>& loop_state) const {
-  loop_state.insert(loop_state.end(), {way_, pace_, before_, growth_, learning_, acts_ ? 1.0 : 0.0});
+  loop_state.insert(loop_state.end(), {way_, pace_, learned_from_, last_pace_, loads2_, growth_, learning_,
+                                       steps_, drawn_ ? 1.0 : 0.0, acts_ ? 1.0 : 0.0});
 }
 
 std::size_t SupportWay::take(const std::vector<double>& loop_state, std::size_t from) {
   way_ = loop_state.at(from);
   pace_ = loop_state.at(from + 1);
-  before_ = loop_state.at(from + 2);
-  growth_ = loop_state.at(from + 3);
-  learning_ = loop_state.at(from + 4);
-  acts_ = loop_state.at(from + 5) != 0;
-  return from + 6;
+  learned_from_ = loop_state.at(from + 2);
+  last_pace_ = loop_state.at(from + 3);
+  loads2_ = loop_state.at(from + 4);
+  growth_ = loop_state.at(from + 5);
+  learning_ = loop_state.at(from + 6);
+  steps_ = loop_state.at(from + 7);
+  drawn_ = loop_state.at(from + 8) != 0;
+  acts_ = loop_state.at(from + 9) != 0;
+  return from + 10;
 }
 
 } // namespace cdem

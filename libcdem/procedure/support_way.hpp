@@ -4,17 +4,19 @@
 // The part s of the way that is done grows by the pace r in each step. The pace follows the residual R. It begins at 1e-6, once
 // R is at most 0.005, and then
 //
-//   r+ = r exp(max(-1, 1 - R / 0.005) / 40),   1e-6 <= r <= (1 - s) / 40 + 1e-4
+//   r+ = r exp((1 - R / 0.005) / 40) below that, r 0.005 / R above,   1e-6 <= r <= (1 - s) / 40 + 1e-4
 //
-// Supports wait while forces are out of balance, and arrive softly. After 40 slowest periods T they are drawn along the rest of
-// their way in as many again.
+// So supports wait where bonds break, and arrive softly. Where the forces of contacts change by more than 0.05 of the loads in a
+// step, the motion of the step before is taken back, no bond breaks, and the pace falls to an eighth, at least 1e-9: so contacts
+// close softly. After 40 slowest periods T supports are drawn along the rest of their way in as many again.
 //
 // Free nodes are led: else drag and inertia would strain the neighbours of supports alone. The velocity of a node is that of
 // dynamic relaxation, w, and the lead r l. The displacement l per way is learned from what w adds to it:
 //
 //   dl = b w / r,   b = min(4 r / (s + s0), c / 4),   s0 = max(1e-5, 100 R_0)
 //
-// It is a mean over the last quarter of the way. R_0 is the residual at the start, whose motion is not of the way. The
+// It is a mean over the last quarter of the way. R_0 is the residual at the start, whose motion is not of the way. What is in touch
+// anew moves otherwise: then b = min(4 r / (s - s1 + 100 r1), c / 4), with s1 and r1 of that moment. The
 // damping c is at least 4 pi / T: with b < c / 2 every mode that the lead drives is damped. The net force F on a node does the work
 // F . r l, which is fictitious.
 #pragma once
@@ -33,33 +35,48 @@ public:
   SupportWay(std::size_t nodes, double period) : lead_(nodes), period_(period), way_(0) {}
 
   bool acts() const { return acts_; }                 // in the step to come
+  bool takes_back() const { return pace_ < 0; }       // likewise
   bool stands() const { return way_ >= 1 && !acts_; } // supports have arrived, and nodes are led no more
-  double left() const {                               // steps at this pace; 0: supports stand
-    return way_ < 1 && pace_ > 0 ? (1 - way_) / pace_ : 0;
+  double left() const { // steps at this pace, below 0 while it takes back; 0: supports stand
+    return way_ < 1 && pace_ != 0 ? (1 - way_) / pace_ : 0;
   }
+  bool drawn() const { return drawn_; }       // along, in the step to come
   std::vector<Node>& lead() { return lead_; } // r l, m per step (n_nodes); empty: nothing is moved
 
   // Where nodes are led; else 0.
   double least_damping() const;
-  // step: that has been made; residual: of it.
-  void choose_pace(std::int64_t step, double residual, double damping);
+  // residual, sums: of the step that has been made.
+  void choose_pace(double residual, double damping, const NodeSums&);
   void end_step();
+
+  // change2: N2, squared norm, of the forces of contacts since the step before. Says whether the step to come takes back.
+  bool see_contacts(double change2);
 
   // Before the step of dynamic relaxation, for which the velocity is w, and after it. first: the number of the first node;
   // free: 1 for the components that are not held; force: N, net, that acted in the step.
   void take_off(const MovingNodes& nodes, std::int64_t first) const;
   void put_on(const MovingNodes& nodes, std::int64_t first, const Node& free, const Node* force, NodeSums&);
 
+  // In place of a step of dynamic relaxation where the way takes back. prescribed: of the components that are held.
+  void step_back(const MovingNodes& nodes, std::int64_t first, const Node& free, const Node& prescribed,
+                 Node* previous_force, NodeSums&);
+
   // For a stage that goes on: numbers that a later add_to gives again. take returns the place behind them.
   void add_to(std::vector<double>& loop_state) const;
   std::size_t take(const std::vector<double>& loop_state, std::size_t from);
 
 private:
+  double late() const; // part of the time in which supports are drawn along
+
   std::vector<Node> lead_;
   double period_ = 0;
-  double way_ = 1, pace_ = 0, before_ = 0; // s, r, s0
-  double growth_ = 0, learning_ = 0;       // r over that of the step before, b; 0: nodes are not led
-  bool acts_ = false;
+  double way_ = 1, pace_ = 0;        // s, r
+  double learned_from_ = 0;          // s
+  double last_pace_ = 0;             // of the step before
+  double loads2_ = 0;                // N2, residual_reference2
+  double growth_ = 0, learning_ = 0; // r over that of the step before, b; 0: nodes are not led
+  double steps_ = 0;                 // made
+  bool acts_ = false, drawn_ = false;
 };
 
 } // namespace cdem

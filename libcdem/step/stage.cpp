@@ -74,9 +74,12 @@ bool finite(const NodeSums& sums) {
 
 } // namespace
 
+double residual_reference2(const NodeSums& sums) {
+  return sums.applied2 > 0 ? sums.applied2 : sums.reaction2;
+}
+
 double relative_residual(const NodeSums& sums) {
-  const double reference = sums.applied2 > 0 ? sums.applied2 : sums.reaction2;
-  if (reference > 0)
+  if (const double reference = residual_reference2(sums); reference > 0)
     return std::sqrt(sums.residual2 / reference);
   return sums.residual2 > 0 ? 1.0 : std::isnan(sums.residual2) ? sums.residual2 : 0.0;
 }

@@ -190,5 +190,7 @@ int useful_threads(const Model&, int threads);
 
 // Out-of-balance over applied force norm; reactions stand in for the loads where supports move.
 double relative_residual(const NodeSums&);
+// What it is relative to, N2: squared norm of the loads, of the reactions where there are none.
+double residual_reference2(const NodeSums&);
 
 } // namespace cdem

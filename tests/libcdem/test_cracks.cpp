@@ -126,7 +126,8 @@ TEST_CASE("cracks: a joint half way to separation has an area weighted by its da
   top.displacement = Vec3::Zero();
   s.fix(top);
   s.relax({});
-  CHECK(s.cracks().all().damaged == loaded.damaged);
+  // Up to what the last relaxation left.
+  CHECK(s.cracks().all().damaged == Approx(loaded.damaged).epsilon(1e-9));
   CHECK(s.cracks().all().energy.tension == Approx(loaded.energy.tension).epsilon(1e-9));
 }
 

@@ -315,6 +315,36 @@ TEST_CASE("a moved base carries the block on it, and a block that is pushed slid
   }
 }
 
+TEST_CASE("a support that is moved across a gap pushes a block with its friction, and no harder",
+          "[loads][relax]") {
+  const double gap = 0.05, way = 0.1; // m
+  cdem::ModelSpec spec;
+  spec.bodies = {
+      meshed("base", box_at({3, 1, 0.4}, {6, 2, 2}, geom::Mat3::Identity(), {1, 0.5, -0.2})),
+      meshed("block", box_at({1, 1, 0.4}, {4, 4, 2}, geom::Mat3::Identity(), {0.5, 0.5, 0.2})),
+      meshed("pusher", box_at({0.2, 0.8, 0.3}, {1, 2, 2}, geom::Mat3::Identity(), {-0.1 - gap, 0.5, 0.2}))};
+  spec.pairs = {{"base", "block", friction(30)}, {"pusher", "block", friction(0)}};
+  cdem::Simulation s(spec, 1, nullptr);
+  s.fix(fixed(body_of("base")));
+  s.fix(fixed(body_of("pusher")));
+  s.gravity(gravity({0, 0, -9.81}));
+  cdem::RelaxOptions options;
+  options.residual = 1e-5;
+  REQUIRE(s.relax(options).converged);
+  cdem::Fix push = fixed(body_of("pusher"));
+  push.displacement = Vec3(way, 0, 0);
+  s.fix(push);
+  const cdem::RelaxResult result = s.relax(options);
+  REQUIRE(result.converged);
+  CHECK(result.broken_while_drawn == 0);
+  const double limit = rock().density * 9.81 * 0.4 * std::tan(30 * degree); // N
+  CHECK(s.reaction(body_of("pusher")).x() == Approx(limit).epsilon(0.005));
+  CHECK(s.mean("displacement.x", body_of("block")) == Approx(way - gap).epsilon(1e-4));
+  CHECK(s.energy().friction == Approx(limit * (way - gap)).epsilon(0.005));
+  CHECK(s.energy().damping < 0.01 * limit * (way - gap));
+  CHECK(s.energy().balance_error() < 1e-4);
+}
+
 TEST_CASE("a support with a given velocity moves with it and a later release wins over a fix", "[loads]") {
   cdem::Simulation s = simulation(geom::grid({0.1, 0.1, 0.1}, {1, 1, 1}));
   cdem::Fix move = fixed(cdem::Selection::everything());

@@ -60,6 +60,10 @@ void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResu
                  "; the script goes on, and result.verdict is \"failing\"");
   else if (!options.note.empty())
     session.message(found);
+  if (r.broken_while_drawn > 0)
+    session.warn("relax: " + geom::counted(r.broken_while_drawn, "bond") +
+                 " broke while supports went on though forces were out of balance, perhaps too early; move "
+                 "supports in smaller increments, with a relax after each, or by run");
 }
 
 Field breaking() {

@@ -1,0 +1,35 @@
+// Relaxations that move supports: what breaks on their way.
+#include "tests/lua/script.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace cdem::script;
+using namespace cdem::script::test;
+
+TEST_CASE("of two joints of a cantilever only the weaker breaks, however far its end is led at once",
+          "[lua][relax]") {
+  const double margin = GENERATE(1.1, 1.3), way = GENERATE(1.05, 1.5, 5.0);
+  CAPTURE(margin, way);
+  // The stress at the root is one and a half times that in the middle.
+  const auto warnings =
+      warnings_of("local margin, way = " + std::to_string(margin) + ", " + std::to_string(way) + R"(
+local cdem = require "cdem"
+local T, L, b, h, E = 2e6, 2, 0.2, 0.4, 30e9
+local rock = cdem.elastic{ youngs_modulus = E, poissons_ratio = 0, density = 2500 }
+local function joint(t) return cdem.mohr_coulomb{ cohesion = 10 * t, friction_angle = 30, tensile_strength = t } end
+local shape = cdem.cut_by_plane{ shape = cdem.box{ size = {L, b, h} }, point = {1, 0, 0}, normal = {1, 0, 0}, name = "middle" }
+shape = cdem.cut_by_plane{ shape = shape, point = {0.5, 0, 0}, normal = {1, 0, 0}, name = "root" }
+local model = cdem.model{ bodies = { { shape = shape, material = rock, joint = joint(T), zone_size = 0.1, bonds = "cohesive",
+  joints = { middle = joint(T), root = joint(1.5 * margin * T) } } } }
+model:fix{ on = "x-" }
+local F, I = T * b * h^2 / 6, b * h^3 / 12
+local deflection = F * L^3 / (3 * E * I) + F * L / (E / 2 * b * h * 5 / 6) -- as the middle breaks
+model:fix{ on = function(x) return x > L - 1e-9 end, axes = "z", displacement = {0, 0, -way * deflection} }
+model:relax{ residual = 1e-4 }
+local breaks = model:breaks()
+assert(#breaks > 0)
+for _, bond in ipairs(breaks) do assert(math.abs(bond.place[1] - 1) < 1e-6, "the root has broken") end
+)");
+  INFO((warnings.empty() ? "" : warnings.front()));
+  CHECK(warnings.size() <= 1);
+}
