@@ -24,6 +24,8 @@ struct Contact {
   std::int32_t beside = 0;                // of an edge the second triangle of the target
   geom::Vec3 normal = geom::Vec3::Zero(); // unit, out of the target
   geom::Vec3 shear = geom::Vec3::Zero();  // Fs, N, on the source
+  geom::Vec3 widening =
+      geom::Vec3::Zero(); // m2/m, growth of `area` per slip, as flat faces slide past each other
   // m, depth at which it carries nothing: it was found that deep.
   double reference_penetration = 0;
   double depth = 0;       // m, below the target's surface

@@ -3,12 +3,16 @@
 
 #include "libcdem/model/contact_surface.hpp"
 
+#include <limits>
+
 namespace cdem {
 
 struct FlatFace {
   std::vector<int> outline;   // nodes, counter-clockwise seen from outside
   std::vector<int> triangles; // of the surface
   double usual_area = 0;      // m2, mean of its triangles, undeformed
+  double least_height =
+      std::numeric_limits<double>::infinity(); // m, of its triangles in the plane, undeformed
   struct Edge {
     std::array<int, 2> nodes{};
     std::array<bool, 2> ends{}; // whether the face ends at the node

@@ -55,6 +55,11 @@ struct Sums {
   }
 };
 
+// Semi-springs nearer to the outline of the other face than they stand in from that of their own count less, and none leaves with much.
+double spring_part(double inside, const FlatFace& own) {
+  return std::clamp(1.1 * inside / (drawn_in * own.least_height) - 0.1, 1e-3, 1.0);
+}
+
 // Calls each(area, place) for the contacts that two faces have where they lie on each other.
 template <class Each>
 void each_contact(const Model& model, const State& state, const std::array<const FlatFace*, 2>& faces,
@@ -67,14 +72,14 @@ void each_contact(const Model& model, const State& state, const std::array<const
       const Corners x = corners_of(model, state, triangle.nodes);
       for (int corner = 0; corner < 3; ++corner) {
         const geom::Point place = axes.flat(weighted(x, spring_weights(corner)));
-        if (inside_outline(outlines[1 - side], place) > 0)
-          each(spring_area(triangle.area, other.usual_area), place);
+        if (const double inside = inside_outline(outlines[1 - side], place); inside > 0)
+          each(spring_area(triangle.area, other.usual_area) * spring_part(inside, *faces[side]), place);
       }
     }
   }
   const auto flat = [&](int node) { return axes.flat(place_of(model, state, node)); };
-  const auto may_meet_at = [](const FlatFace::Edge& edge, double place) {
-    return place >= (edge.ends[0] ? drawn_in : 0) && place <= 1 - (edge.ends[1] ? drawn_in : 0);
+  const auto from_end = [](const FlatFace::Edge& edge, double place) {
+    return std::min(edge.ends[0] ? place : 1, edge.ends[1] ? 1 - place : 1);
   };
   for (const FlatFace::Edge& e : faces[0]->edges) {
     const geom::Point a = flat(e.nodes[0]), along = flat(e.nodes[1]) - a;
@@ -84,8 +89,10 @@ void each_contact(const Model& model, const State& state, const std::array<const
       if (std::abs(twice) < parallel_edges * along.norm() * across.norm())
         continue;
       const double s = cross(b - a, across) / twice, t = cross(b - a, along) / twice;
-      if (may_meet_at(e, s) && may_meet_at(f, t))
-        each(edge_area(e.area, f.area), a + s * along);
+      if (std::min({s, t, 1 - s, 1 - t}) < 0)
+        continue;
+      if (const double part = part_at_end(std::min(from_end(e, s), from_end(f, t))); part > 0)
+        each(edge_area(e.area, f.area) * part, a + s * along);
     }
   }
 }
@@ -96,6 +103,13 @@ constexpr double most_uneven = 0.9;
 // Contacts whose second moment, about a line through their mean place, is less than this part of that of the covered area stand
 // in that line.
 constexpr double least_spread = 0.01;
+
+double area_of(const geom::Polygon& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  return 0.5 * twice;
+}
 
 // Second moment of a polygon over its area, m2, about the origin, which is its centroid.
 Eigen::Matrix2d spread_of(const geom::Polygon& polygon, double area) {
@@ -113,6 +127,32 @@ double depth_below(const Model& model, const State& state, const geom::Vec3& pla
   return (place_of(model, state, g.outline[0]) - place).dot(normal);
 }
 
+// k: next to nothing far from a corner of P.
+double nearness(const geom::Point& way, double reach) {
+  const double x = reach * reach / (way.squaredNorm() + reach * reach);
+  return x * x;
+}
+
+// 0 at the outline of P, 1 well within.
+double part_within(const geom::Polygon& covered, double size, const geom::Point& place) {
+  return std::clamp(4 * inside_outline(covered, place) / size, 0., 1.);
+}
+
+// Corners of a polygon at which its outline turns: edges that are nearly parallel have no contact where they cross.
+geom::Polygon turning_corners(const geom::Polygon& polygon, double size) {
+  geom::Polygon apart, corners;
+  for (const geom::Point& x : polygon)
+    if (apart.empty() || ((x - apart.back()).norm() > 1e-6 * size && (x - apart[0]).norm() > 1e-6 * size))
+      apart.push_back(x);
+  const std::size_t n = apart.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const geom::Point in = apart[i] - apart[(i + n - 1) % n], out = apart[(i + 1) % n] - apart[i];
+    if (cross(in, out) > parallel_edges * in.norm() * out.norm())
+      corners.push_back(apart[i]);
+  }
+  return corners;
+}
+
 double least_height(const Model& model, const FlatFace& face) {
   double least = std::numeric_limits<double>::infinity();
   for (const int t : face.triangles)
@@ -122,8 +162,22 @@ double least_height(const Model& model, const FlatFace& face) {
 
 } // namespace
 
+double FaceCover::part(const geom::Point& place) const {
+  if (share.empty())
+    return 1;
+  double sum = within * part_within(covered, size, place);
+  for (std::size_t v = 0; v < share.size(); ++v)
+    sum += share[v] * nearness(place - corners[v], reach);
+  return sum;
+}
+
 double FaceCover::weight(const geom::Vec3& place) const {
-  return usual * (1 + std::clamp(slope.dot(axes.flat(place) - mean), -most_uneven, most_uneven));
+  const geom::Point at = axes.flat(place);
+  return part(at) * usual * (1 + std::clamp(slope.dot(at - mean), -most_uneven, most_uneven));
+}
+
+double FaceCover::part_of_spring(const geom::Vec3& place, const FlatFace& own) const {
+  return spring_part(inside_outline(covered, axes.flat(place)), own);
 }
 
 bool FaceCover::covers(const geom::Vec3& place) const {
@@ -179,6 +233,14 @@ FlatFaces flat_faces(const Model& model) {
     }
     for (int f = first; f < first + count; ++f) {
       FlatFace& face = faces.all[f];
+      for (const int t : face.triangles) {
+        const geom::Triangle& n = s.triangles[t].nodes;
+        for (int i = 0; i < 3; ++i)
+          face.least_height =
+              std::min(face.least_height,
+                       2 * s.triangles[t].area /
+                           (model.node_position[n[(i + 1) % 3]] - model.node_position[n[i]]).norm());
+      }
       for (const int t : face.triangles)
         face.usual_area += s.triangles[t].area / static_cast<double>(face.triangles.size());
     }
@@ -223,26 +285,54 @@ FaceCover cover_of(const Model& model, const State& state, const FlatFace& f, co
   for (geom::Polygon* outline : {&outlines[0], &outlines[1], &covered})
     for (geom::Point& x : *outline)
       x -= centroid;
+  cover.covered = std::move(covered);
+  each_contact(model, state, {&f, &g}, outlines, cover.axes,
+               [&](double of, const geom::Point& x) { cover.contacts.emplace_back(of, x); });
+  cover.flat = !cover.contacts.empty();
+  return cover;
+}
+
+void weigh(FaceCover& cover, const FlatFace& f, const FlatFace& g) {
+  cover.weighed = true;
+  const double area = area_of(cover.covered);
+  const auto has_single_edges = [](const FlatFace& face) { return face.edges.size() == face.outline.size(); };
+  if (has_single_edges(f) && has_single_edges(g)) {
+    const double size = std::sqrt(area), usual = std::min(f.usual_area, g.usual_area);
+    cover.corners = turning_corners(cover.covered, size);
+    const std::size_t n = cover.corners.size();
+    std::vector<double> near(n, 0.02 * usual);
+    double within = 0;
+    cover.size = size;
+    cover.reach = 4 * drawn_in * std::sqrt(usual);
+    for (const auto& [of, x] : cover.contacts) {
+      within += of * part_within(cover.covered, size, x);
+      for (std::size_t v = 0; v < n; ++v)
+        near[v] += of * nearness(x - cover.corners[v], cover.reach);
+    }
+    cover.within = within > 0 ? std::min(1.0, 2 * area / 3 / within) : 0;
+    const double at_corners = 2 - cover.within * within / area;
+    cover.share.assign(n, 0);
+    for (std::size_t v = 0; v < n; ++v) {
+      const double half = 0.25 * cross(cover.corners[v], cover.corners[(v + 1) % n]);
+      for (const std::size_t w : {v, (v + 1) % n})
+        cover.share[w] += at_corners * half / near[w];
+    }
+  }
   Sums sums;
-  const std::array<const FlatFace*, 2> faces{&f, &g};
-  const auto each = [&](const auto& does) { each_contact(model, state, faces, outlines, cover.axes, does); };
-  each([&](double of, const geom::Point& x) { sums.add(of, x); });
-  if (!(sums.one > 0))
-    return cover;
-  cover.flat = true;
+  for (const auto& [of, x] : cover.contacts)
+    sums.add(of * cover.part(x), x);
   cover.usual = 2 * area / sums.one;
   cover.mean = sums.first / sums.one;
   // Weights that bring the mean place to the centroid.
   const Eigen::Matrix2d spread = sums.second / sums.one - cover.mean * cover.mean.transpose(),
-                        over = spread_of(covered, area).inverse() * spread;
-  cover.covered = std::move(covered);
+                        over = spread_of(cover.covered, area).inverse() * spread;
   if (!(over.determinant() > least_spread * std::max(1.0, over.trace())))
-    return cover;
+    return;
   const geom::Point slope = -spread.inverse() * cover.mean;
   double uneven = 0;
-  each([&](double, const geom::Point& x) { uneven = std::max(uneven, std::abs(slope.dot(x - cover.mean))); });
+  for (const auto& [of, x] : cover.contacts)
+    uneven = std::max(uneven, std::abs(slope.dot(x - cover.mean)));
   cover.slope = most_uneven / std::max(uneven, most_uneven) * slope;
-  return cover;
 }
 
 } // namespace cdem

@@ -391,12 +391,32 @@ bool Evaluation::at_a_step(const ContactTriangle& from, const geom::Vec3& outwar
   return false;
 }
 
+Evaluation::TwoFaces& Evaluation::two_faces(int f, int g) {
+  const std::pair<int, int> faces = std::minmax(f, g);
+  TwoFaces& known = two_faces_[static_cast<std::size_t>(f + g) % two_faces_.size()];
+  if (known.faces != faces)
+    known = {faces, std::nullopt, std::nullopt};
+  return known;
+}
+
 const FaceCover& Evaluation::cover(int f, int g) {
-  const auto [first, second] = std::minmax(f, g);
-  Cover& known = covers_[static_cast<std::size_t>(f + g) % covers_.size()];
-  if (known.faces != std::pair(first, second))
-    known = {{first, second}, cover_of(model_, state_, work_.faces.all[first], work_.faces.all[second])};
-  return known.cover;
+  TwoFaces& two = two_faces(f, g);
+  if (!two.cover)
+    two.cover = cover_of(model_, state_, work_.faces.all[two.faces.first], work_.faces.all[two.faces.second]);
+  return *two.cover;
+}
+
+double Evaluation::size_of(const std::pair<int, int>& two) const {
+  return std::sqrt(std::min(work_.faces.all[two.first].usual_area, work_.faces.all[two.second].usual_area));
+}
+
+bool Evaluation::are_flat(int one, int other) {
+  return work_.faces.of_triangle[one] >= 0 && work_.faces.of_triangle[other] >= 0 &&
+         lie_on_each_other(facet(one).normal, facet(other).normal);
+}
+
+bool Evaluation::is_step(int one, int other, double depth) const {
+  return depth > drawn_in * std::min(surface_.triangles[one].height, surface_.triangles[other].height);
 }
 
 std::optional<Nearest> Evaluation::pressed_by(int source, const geom::Vec3& spring, const Nearest& found) {
@@ -406,12 +426,14 @@ std::optional<Nearest> Evaluation::pressed_by(int source, const geom::Vec3& spri
   const geom::Vec3 own = facet(source).normal;
   if (lie_on_each_other(own, facet(found.target).normal))
     return found;
-  const auto lies_on_it = [&](int beside) { return cover(beside, next).flat; };
+  const auto lies_on_it = [&](int beside) {
+    return are_flat(work_.faces.all[beside].triangles[0], found.target) && cover(beside, next).flat;
+  };
   const std::vector<int>& around = work_.faces.all[f].beside;
   if (std::any_of(around.begin(), around.end(), lies_on_it))
     return std::nullopt;
   for (const int g : work_.faces.all[next].beside)
-    if (cover(f, g).covers(spring)) {
+    if (are_flat(source, work_.faces.all[g].triangles[0]) && cover(f, g).covers(spring)) {
       Nearest on;
       for (const int t : work_.faces.all[g].triangles)
         if (const Nearest here = nearest_of(t, spring, facet(t).x, facet(t).normal);
@@ -423,28 +445,65 @@ std::optional<Nearest> Evaluation::pressed_by(int source, const geom::Vec3& spri
   return found;
 }
 
-bool Evaluation::renews_areas() const {
-  constexpr std::int64_t every = 20;
-  return work_.step > 0 && state_.step % every == 0;
+// Areas are looked at anew where faces pass the next line of a grid over them: wherever they have been before, it is the same. The
+// grid is finer for those that change fast, as near an outline.
+const std::array<double, 2>& Evaluation::nearing(int f, int g) {
+  constexpr std::array cells{1e-3, 1e-4}; // over the size of the smaller face
+  constexpr double origin = 0.37;         // in cells: where blocks are laid no line passes
+  TwoFaces& two = two_faces(f, g);
+  if (two.nearing)
+    return *two.nearing;
+  const FlatFace &one = work_.faces.all[two.faces.first], &other = work_.faces.all[two.faces.second];
+  const double size = size_of(two.faces);
+  const geom::Vec3 normal = facet(other.triangles[0]).normal;
+  const auto past = [&](double ago) { // where two places of one face are over the other, in sizes
+    const auto place = [&](const FlatFace& face, std::size_t half) -> geom::Vec3 {
+      const int node = face.outline[half * face.outline.size() / 2];
+      return place_of(model_, state_, node) - ago * velocity_of(state_, node);
+    };
+    const geom::Vec3 from = place(other, 0), e1 = (place(other, 1) - from).normalized(),
+                     e2 = normal.cross(e1), a = place(one, 0) - from, b = place(one, 1) - from;
+    return Eigen::Array4d(a.dot(e1), a.dot(e2), b.dot(e1), b.dot(e2)) / size;
+  };
+  const Eigen::Array4d now = past(0), before = past(work_.step);
+  const double slid = (now - before).abs().maxCoeff();
+  const auto in_grid = [&](double cell) {
+    const bool passes = ((now / cell + origin).floor() != (before / cell + origin).floor()).any();
+    return passes ? slid / std::max(1.5 * cell, slid) : 0;
+  };
+  two.nearing = {in_grid(cells[0]), in_grid(cells[1])};
+  return *two.nearing;
+}
+
+Evaluation::OnFace Evaluation::on_face(int f, int g, const geom::Vec3& place, double of, const Contact* old,
+                                       bool of_spring) {
+  constexpr double least_part = 1e-3, fast = 10; // area changes over a size, in areas
+  OnFace on;
+  if (old) {
+    const double widens = old->widening.norm() * size_of({f, g});
+    on.nearing = work_.step > 0 ? nearing(f, g)[widens > fast * old->area] : 0;
+    if (on.nearing == 0)
+      return on;
+  }
+  const FaceCover& cover = this->cover(f, g);
+  if (!cover.flat)
+    return on;
+  if (!cover.weighed)
+    weigh(*two_faces(f, g).cover, work_.faces.all[std::min(f, g)], work_.faces.all[std::max(f, g)]);
+  const double part = of_spring ? cover.part_of_spring(place, work_.faces.all[f]) : 1;
+  on.area = of * std::max(least_part, part * cover.weight(place));
+  return on;
 }
 
 // It keeps the stiffness with which it began: under another triangle of the target its energy would jump.
 void Evaluation::set_stiffness(Contact& c, const Contact* old, const ContactLaw& law, double of,
                                double on) const {
-  c.area = old ? old->area : on;
-  c.stiffness = old && old->stiffness > 0 ? old->stiffness : on > 0 ? law.kn * on / of : law.kn;
-}
-
-void Evaluation::renew_area(Contact& c, double of, double on, double& friction) const {
-  constexpr double least_change = 1e-3; // faces that vibrate keep their areas
-  const double grows = on / (c.area > 0 ? c.area : of), pressed = c.effective_penetration();
-  if (std::abs(grows - 1) < least_change)
-    return;
-  friction -= 0.5 * (grows - 1) * c.stiffness * pressed * pressed;
-  c.area = on;
-  c.stiffness *= grows;
-  c.shear *= std::sqrt(grows);
-  c.damping *= std::sqrt(grows);
+  c.area = old ? old->area : 0;
+  c.stiffness = old && old->stiffness > 0 ? old->stiffness : law.kn;
+  if (on > 0 && !old)
+    c.stiffness *= on / of;
+  if (on > 0 && c.area == 0)
+    c.area = old ? of : on;
 }
 
 bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, int fragment,
@@ -455,15 +514,25 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   c.target = nearest.target;
   const Contact* const old = before(c);
   const ContactArms arms = spring_arms(model_, state_, from, corner, to, nearest.at.weights);
-  if (!old && depth > begins && depth > begins + work_.step * velocity_past(state_, arms).norm())
+  const double of = spring_area(from.area, to.area);
+  const int f = work_.faces.of_triangle[source], g = work_.faces.of_triangle[nearest.target];
+  OnFace on;
+  if (f >= 0 && g >= 0) {
+    on = on_face(f, g, spring, spring_area(from.area, work_.faces.all[g].usual_area), old, true);
+    if (!old && on.area > 0 && !work_.any_depth_begins && !is_step(source, nearest.target, depth))
+      on.slid_on = !cover(f, g).covers(spring - work_.step * velocity_past(state_, arms));
+  }
+  if (!old && !on.slid_on && depth > begins &&
+      depth > begins + work_.step * velocity_past(state_, arms).norm())
     return false;
   const Facet& y = facet(nearest.target);
   ContactMotion motion;
   motion.depth = depth;
   motion.normal = nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
   const Corners x = corners_of(model_, state_, from.nodes);
-  if (!old && (edge_carries_at(source, corner, spring, motion.normal, nearest.target) ||
-               at_a_step(from, unit_normal(x), spring, motion.normal, nearest.target)))
+  if (!old && !on.slid_on &&
+      (edge_carries_at(source, corner, spring, motion.normal, nearest.target) ||
+       at_a_step(from, unit_normal(x), spring, motion.normal, nearest.target)))
     return false;
   const auto velocities = [&](const geom::Triangle& nodes) -> Corners {
     return {velocity_of(state_, nodes[0]), velocity_of(state_, nodes[1]), velocity_of(state_, nodes[2])};
@@ -473,14 +542,8 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
       (spin(x, velocities(from.nodes), motion.normal) + spin(y.x, velocities(to.nodes), motion.normal));
   const Law& between = law_between({source, source}, {nearest.target, nearest.target});
   const ContactLaw law = spring_law(model_, *between.joint, between.tan_friction, from, to);
-  double area = 0;
-  const int f = work_.faces.of_triangle[source], g = work_.faces.of_triangle[nearest.target];
-  if (f >= 0 && g >= 0 && (!old || renews_areas()))
-    if (const FaceCover& on = cover(f, g); on.flat)
-      area = spring_area(from.area, work_.faces.all[g].usual_area) * on.weight(spring);
-  const double of = spring_area(from.area, to.area);
-  set_stiffness(c, old, law, of, area);
-  finish(c, old, motion, arms, as_stiff_as(c, law), from, to, of, old ? area : 0);
+  set_stiffness(c, old, law, of, on.area);
+  finish(c, old, motion, arms, law, from, to, on);
   return true;
 }
 

@@ -63,15 +63,26 @@ private:
   void add_contact(int source, int target, const NearestOfEdges&, const EdgeTouch&, bool may_begin);
   // Two flat faces, by their numbers.
   const FaceCover& cover(int f, int g);
+  double size_of(const std::pair<int, int>&) const; // m
+  // Part of what areas lack that a slip as that of the step brings, of those that change slowly and fast; 0: they go on as they did.
+  const std::array<double, 2>& nearing(int f, int g);
+  bool are_flat(int one, int other); // two triangles of such faces, that can lie on each other
+  bool is_step(int one, int other, double depth) const; // deeper below a face than semi-springs stand in
+  bool slid_over(const ContactEdge&, const ContactEdge&, const NearestOfEdges&);
+  // What a flat face gives to a contact that presses on it.
+  struct OnFace {
+    double area = 0; // m2, for which the contact should stand; 0: no face lies there
+    double nearing = 0;
+    bool slid_on = false; // a new contact came over an outline, not through the face
+  };
+  // f: the face of the source; of: m2, without the faces.
+  OnFace on_face(int f, int g, const geom::Vec3& place, double of, const Contact* old, bool of_spring);
   // On which face a semi-spring presses whose nearest place on the surface of a block is `found`: on a flat one that its own face
   // lies on, however near the next face is; on none where a face beside its own lies on the found one, and stands for it.
   std::optional<Nearest> pressed_by(int source, const geom::Vec3& spring, const Nearest& found);
   // Sets stiffness and area of a contact. old: the same one before the step, null where there was none; of: m2, without
-  // another face; on: m2, for which a new one stands on a flat face; 0: on another.
+  // another face; on: m2, for which it should stand on a flat face, 0: on another, or as it does.
   void set_stiffness(Contact&, const Contact* old, const ContactLaw&, double of, double on) const;
-  // Gives a contact on a flat face the area for which it stands now, at the same depth. Friction gets what it stores less, J.
-  void renew_area(Contact&, double of, double on, double& friction) const;
-  bool renews_areas() const; // in this step, of contacts that there are
   // Stores what the old one did before the step. Returns it, J: it is booked as lost with the old one, and is not.
   double take_over(Contact&, const Contact& old, const ContactLaw&, const ContactMotion&) const;
   // What the contacts between two blocks share in a step.
@@ -100,13 +111,14 @@ private:
                             const std::array<double, 4>& weights, double force) const;
   // Gives a contact that closes again what is left of its means.
   void go_on_if_opened(Contact&) const;
+  void widen(Contact&, const Contact& old, const ContactMotion&, const OnFace&) const;
   // For restitution, of a contact before it advances. velocity: m/s, of its source past its target.
   void set_approach(const Contact&, const ContactLaw&, const BlockPair&, const ContactArms&,
                     const geom::Vec3& velocity, const ContactTriangle& from, const ContactTriangle& to,
                     ContactMotion&) const;
-  // old: the contact before the step, null where there was none; of, on: as of renew_area, 0: the area stays.
+  // old: the contact before the step, null where there was none. The law is that of its kind, however stiff the contact is.
   void finish(Contact&, const Contact* old, ContactMotion&, const ContactArms&, const ContactLaw&,
-              const ContactTriangle& from, const ContactTriangle& to, double of, double on);
+              const ContactTriangle& from, const ContactTriangle& to, const OnFace&);
 
   // Where a triangle is now: of a few that follow each other it is worked out once.
   const Facet& facet(int triangle);
@@ -121,11 +133,13 @@ private:
   std::vector<Contact>::const_iterator old_; // the first contact of the row's source or a later one
   std::array<Law, 8> laws_;                  // by the last bits of the numbers of both
   std::array<BlockPair, 8> pairs_;
-  struct Cover {
+  struct TwoFaces {
     std::pair<int, int> faces{-1, -1};
-    FaceCover cover;
+    std::optional<FaceCover> cover;
+    std::optional<std::array<double, 2>> nearing;
   };
-  std::array<Cover, 8> covers_; // by the last bits of the numbers of both
+  TwoFaces& two_faces(int f, int g);
+  std::array<TwoFaces, 8> two_faces_; // by the last bits of the numbers of both
   std::array<std::vector<Nearest>, 3>
       awake_;                    // of a row's semi-springs: their places on the targets that were looked at
   std::array<Facet, 64> facets_; // by the last bits of a triangle's number

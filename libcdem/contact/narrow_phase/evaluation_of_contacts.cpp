@@ -103,15 +103,35 @@ void Evaluation::go_on_if_opened(Contact& c) const {
   c.felt_force = opened->last.felt_force;
 }
 
+// The area of a flat face follows the slip: it grows by the mean widening before and after the step. So the force along the slip,
+// at most the normal force, does as much work as the area stores less.
+void Evaluation::widen(Contact& c, const Contact& old, const ContactMotion& motion, const OnFace& on) const {
+  if (on.nearing == 0 && old.widening.isZero(0))
+    return;
+  const geom::Vec3 slid = motion.slid - motion.slid.dot(motion.normal) * motion.normal;
+  c.widening = turned_with(old.widening, old.normal, motion.normal);
+  const double half_way = old.area + 0.5 * c.widening.dot(slid), square = slid.squaredNorm();
+  if (on.nearing > 0)
+    c.widening = (on.area > 0 && square > 0 ? on.nearing * (on.area - half_way) / square : 0) * slid;
+  const double widest = c.widening.norm() * old.effective_penetration(), most = 2 * old.area;
+  if (widest > most)
+    c.widening *= most / widest;
+  c.area = std::max(0.1 * old.area, half_way + 0.5 * c.widening.dot(slid));
+  c.stiffness *= c.area / old.area;
+}
+
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
-                        const ContactLaw& law, const ContactTriangle& from, const ContactTriangle& to,
-                        double of, double on) {
+                        const ContactLaw& usual, const ContactTriangle& from, const ContactTriangle& to,
+                        const OnFace& on) {
   const geom::Vec3 velocity = velocity_past(state_, arms);
   motion.slid = work_.step * velocity;
   motion.step = work_.step;
   motion.in_relaxation = !work_.damps;
   ContactForce force;
-  const bool own = old && key(*old) == key(c);
+  const bool own = old && key(*old) == key(c), on_face = own && old->area > 0 && !motion.along_stretch;
+  if (on_face)
+    widen(c, *old, motion, on);
+  const ContactLaw law = as_stiff_as(c, usual);
   const auto set_part_of_step = [&](double pressed) {
     if (both_rigid(model_, from.block, to.block))
       motion.part_of_step = part_of_step(
@@ -121,7 +141,7 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     c = *old; // nothing moved
     set_part_of_step(c.effective_penetration());
   } else {
-    // Under another stiffness it stores as much.
+    // Under another stiffness it stores as much, but what presses on a flat face keeps its depth.
     const double grows = own && old->stiffness > 0 ? std::sqrt(c.stiffness / old->stiffness) : 1;
     c.normal = old ? old->normal : motion.normal;
     if (old) {
@@ -133,11 +153,12 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
       c.felt_force = old->felt_force;
     }
     c.depth = own ? old->depth : 0;
-    c.reference_penetration =
-        own ? next_reference_penetration(*old, motion) : first_reference_penetration(motion);
+    c.reference_penetration = own          ? next_reference_penetration(*old, motion)
+                              : on.slid_on ? 0
+                                           : first_reference_penetration(motion);
     if (motion.along_stretch)
       c.reference_penetration /= grows;
-    else if (grows != 1) // a crossing that has turned into a stretch
+    else if (grows != 1 && !on_face) // a crossing that has turned into a stretch
       c.reference_penetration =
           motion.depth - std::max(0.0, old->effective_penetration() / grows - motion.opened());
     if (old && !own)
@@ -157,16 +178,16 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
     const ContactLoss loss = advance(c, law, motion);
     force.friction += loss.friction;
     force.damping = loss.damping;
+    if (!old && on.slid_on)
+      force.friction -= 0.5 * law.kn * c.effective_penetration() * c.effective_penetration();
   }
   force.arms = arms;
   force.source_block = from.block;
   force.target_block = to.block;
   force.normal = part_borne(motion) * normal_force(c, law) * c.normal;
-  force.shear = c.shear;
   force.moment = motion.lever * force.normal;
   force.stiffness = law.kn * (1 + part_damped(c, law)) + law.ks;
-  if (on > 0)
-    renew_area(c, of, on, force.friction);
+  force.shear = c.shear + along_face(c, law);
   out_.contacts.push_back(c);
   out_.forces.push_back(force);
   // Not what was found so deep.

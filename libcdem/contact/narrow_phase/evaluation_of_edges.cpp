@@ -165,7 +165,8 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     bool may_begin = distance <= limit && !e_ends && !f_ends;
     if (may_begin && sine_between(model_, state_, e, f) < edges_in_line) {
       may_begin =
-          may_begin_along(model_, e, f, nearest, work_.step * (speed_of(state_, e) + speed_of(state_, f)));
+          may_begin_along(model_, e, f, nearest, work_.step * (speed_of(state_, e) + speed_of(state_, f))) &&
+          !slid_over(e, f, nearest);
     } else if (may_begin) {
       // Where the way between them leads out of one of the two bodies, an end that is nearer than the way is long may have a
       // face that parts them.
@@ -190,6 +191,18 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
       add_contact(row.source, target, nearest, *touch, may_begin);
   }
   row.recheck_distance = recheck_distance;
+}
+
+// Edges of faces that lie on each other, deeper than their motion along the normal: they slid there along a face.
+bool Evaluation::slid_over(const ContactEdge& e, const ContactEdge& f, const NearestOfEdges& nearest) {
+  const geom::Vec3 slid = work_.step * velocity_past(state_, edge_arms(model_, state_, e, f, nearest));
+  return std::any_of(begin(e.triangles), end(e.triangles), [&](int one) {
+    return std::any_of(begin(f.triangles), end(f.triangles), [&](int other) {
+      const geom::Vec3 normal = facet(one).normal;
+      const double depth = std::abs(nearest.way.dot(normal));
+      return are_flat(one, other) && depth > 1.5 * std::abs(slid.dot(normal)) && !is_step(one, other, depth);
+    });
+  });
 }
 
 void Evaluation::add_contact(int source, int target, const NearestOfEdges& nearest, const EdgeTouch& touch,
@@ -219,17 +232,31 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
     return 0.5 * (surface_.triangles[edge.triangles[0]].area + surface_.triangles[edge.triangles[1]].area);
   };
   const double of = edge_area(mean_area(e), mean_area(f));
-  const auto on_faces = [&] { // m2, where a face of each lies on the other
+  const ContactArms arms = edge_arms(model_, state_, e, f, nearest);
+  const auto on_faces = [&](const Contact* before) { // where a face of each lies on the other
+    const geom::Vec3 a0 = place_of(model_, state_, e.nodes[0]), a1 = place_of(model_, state_, e.nodes[1]);
     for (const int one : e.triangles)
       for (const int other : f.triangles)
-        if (const int a = work_.faces.of_triangle[one], b = work_.faces.of_triangle[other]; a >= 0 && b >= 0)
-          if (const FaceCover& on = cover(a, b); on.flat)
-            return of * on.weight(place_of(model_, state_, e.nodes[0]) +
-                                  nearest.at.s * (place_of(model_, state_, e.nodes[1]) -
-                                                  place_of(model_, state_, e.nodes[0])));
-    return 0.;
+        if (are_flat(one, other)) {
+          const auto from_end = [&](int edge, double at) {
+            return std::min(lines_.at_last_end(edge, 0) ? at : 1, lines_.at_last_end(edge, 1) ? 1 - at : 1);
+          };
+          const double part =
+              part_at_end(std::min(from_end(source, nearest.at.s), from_end(target, nearest.at.t)));
+          OnFace on = on_face(work_.faces.of_triangle[one], work_.faces.of_triangle[other],
+                              a0 + nearest.at.s * (a1 - a0), of * part, before, false);
+          if (!before && on.area > 0 && !work_.any_depth_begins && !is_step(one, other, nearest.way.norm())) {
+            const geom::Vec3 slid = work_.step * velocity_past(state_, arms);
+            const auto at =
+                geom::nearest_on_segments(a0 - slid, a1 - slid, place_of(model_, state_, f.nodes[0]),
+                                          place_of(model_, state_, f.nodes[1]));
+            on.slid_on = lines_.at_last_end(source, at.s) || lines_.at_last_end(target, at.t);
+          }
+          return on;
+        }
+    return OnFace{};
   };
-  double on = 0; // m2, for which it stands now
+  OnFace on;
   if (const auto& stretch = nearest.stretch) {
     motion.lever = stretch->lever;
     motion.along_stretch = old && old->area > 0;
@@ -239,16 +266,17 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
     c.stiffness =
         std::min(most_share, c.area / of * stretch->share) * own.kn; // of the stretch that they have now
   } else if (old) {
-    set_stiffness(c, old, own, of, 0);
-    on = renews_areas() ? on_faces() : 0;
+    on = on_faces(old);
+    set_stiffness(c, old, own, of, on.area);
   } else {
-    set_stiffness(c, nullptr, own, of, on_faces());
+    on = on_faces(nullptr);
+    set_stiffness(c, nullptr, own, of, on.area);
     beyond = lines_.left_behind(source, target, touch.normal);
     old = beyond ? &*beyond : nullptr;
     if (!old && !may_begin)
       return;
   }
-  finish(c, old, motion, edge_arms(model_, state_, e, f, nearest), as_stiff_as(c, own), from, to, of, on);
+  finish(c, old, motion, arms, own, from, to, on);
 }
 
 double Evaluation::take_over(Contact& c, const Contact& old, const ContactLaw& law,

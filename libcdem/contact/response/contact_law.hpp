@@ -214,6 +214,13 @@ inline double normal_force(const Contact& c, const ContactLaw& law) {
   return law.kn * c.effective_penetration() + c.damping;
 }
 
+// N, on the source: its spring stores less as its area shrinks by slip.
+inline geom::Vec3 along_face(const Contact& c, const ContactLaw& law) {
+  const double pressed = c.effective_penetration();
+  return c.area > 0 ? geom::Vec3(-0.5 * law.kn * pressed * pressed / c.area * c.widening)
+                    : geom::Vec3::Zero();
+}
+
 // t, of a contact that has moved that far along its normal in the last step, m.
 inline double part_of_step(double pressed, double moved) {
   return pressed < std::abs(moved) ? pressed / std::abs(moved) : 1;
