@@ -28,9 +28,9 @@ bool add_displacements(const Model& model, const State& state, ContactWork& work
   if (work.search.count == 0)
     return true;
   BlockTravel& travel = work.travel;
-  set_displacements(model, state, work, threads);
+  travel.last_displacement = speeds_of_blocks(model, state, work, threads);
   for (std::size_t b = 0; b < travel.travelled.size(); ++b) {
-    const double way = travel.last_displacement[b];
+    const double way = travel.last_displacement[b] *= work.step;
     travel.travelled[b] += way;
     if (way > 0) // rounded up
       work.rigid_pairs.path[b] =

@@ -135,19 +135,16 @@ void FoundContacts::add_at_node(int node, int block, const geom::Vec3& force, do
 }
 
 void FoundContacts::add_at_nodes(const ContactForce& f) {
-  const auto add = [&](int node, int block, const geom::Vec3& force, double stiffness) {
-    add_at_node(node, block, force, stiffness);
-  };
   const ContactArms& arms = f.arms;
   if (model_.blocks[f.source_block].rigid < 0)
     for (int i = 0; i < 4; ++i)
       if (arms.on_source[i] != 0)
-        add(arms.source[i], f.source_block, arms.on_source[i] * (f.normal + f.shear),
-            std::abs(arms.on_source[i]) * f.stiffness);
+        add_at_node(arms.source[i], f.source_block, arms.on_source[i] * (f.normal + f.shear),
+                    std::abs(arms.on_source[i]) * f.stiffness);
   if (model_.blocks[f.target_block].rigid < 0)
     for (int i = 0; i < 4; ++i)
-      add(arms.target[i], f.target_block, -arms.normal[i] * f.normal - arms.shear[i] * f.shear,
-          std::max(arms.normal[i], std::abs(arms.shear[i])) * f.stiffness);
+      add_at_node(arms.target[i], f.target_block, -arms.normal[i] * f.normal - arms.shear[i] * f.shear,
+                  std::max(arms.normal[i], std::abs(arms.shear[i])) * f.stiffness);
   if (f.moment.isZero(0))
     return;
   const auto turn = [&](const geom::Tet& tet, int block, const geom::Vec3& moment) {
@@ -155,7 +152,7 @@ void FoundContacts::add_at_nodes(const ContactForce& f) {
       return;
     const std::array<geom::Vec3, 4> forces = forces_of_moment(model_, state_, tet, moment);
     for (int i = 0; i < 4; ++i)
-      add(tet[i], block, forces[i], 0);
+      add_at_node(tet[i], block, forces[i], 0);
   };
   turn(arms.source, f.source_block, f.moment);
   turn(arms.target, f.target_block, -f.moment);

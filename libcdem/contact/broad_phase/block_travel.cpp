@@ -28,10 +28,4 @@ std::vector<double> speeds_of_blocks(const Model& model, const State& state, con
   return speeds;
 }
 
-void set_displacements(const Model& model, const State& state, ContactWork& work, int threads) {
-  work.travel.last_displacement = speeds_of_blocks(model, state, work, threads);
-  for (double& way : work.travel.last_displacement)
-    way *= work.step;
-}
-
 } // namespace cdem

@@ -113,18 +113,22 @@ double relative_pace(const Model& model, const State& state, const ContactWork& 
   return std::isfinite(relative) ? std::min(relative, sum) : sum;
 }
 
+// m, by how much the plane of a triangle parts its block from another; below 0: that reaches so far behind the plane.
+double gap_before(const Model& model, const State& state, int triangle, int other) {
+  const Corners x = corners_of(model, state, model.surface.triangles[triangle].nodes);
+  const geom::Vec3 normal = unit_normal(x);
+  double least = std::numeric_limits<double>::infinity();
+  for (int node = model.blocks[other].node_begin; node < model.blocks[other].node_end; ++node)
+    least = std::min(least, (place_of(model, state, node) - x[0]).dot(normal));
+  return least;
+}
+
 // m, by how much a plane of a face of one of the two parts them; 0: none does.
 double distance_apart(const Model& model, const State& state, const RigidPairs& pairs, int a, int b) {
   double best = 0;
   for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
-    for (const int t : pairs.planes[one]) {
-      const Corners x = corners_of(model, state, model.surface.triangles[t].nodes);
-      const geom::Vec3 normal = unit_normal(x);
-      double least = std::numeric_limits<double>::infinity();
-      for (int node = model.blocks[other].node_begin; node < model.blocks[other].node_end; ++node)
-        least = std::min(least, (place_of(model, state, node) - x[0]).dot(normal));
-      best = std::max(best, least);
-    }
+    for (const int triangle : pairs.planes[one])
+      best = std::max(best, gap_before(model, state, triangle, other));
   return best * (1 - rounding);
 }
 
@@ -248,6 +252,38 @@ bool any_left_skin(RigidPairs& pairs) {
 
 double slack_of(const Model& model, const ContactWork& work, int block) {
   return 4 * gives_of(model, work, block, -1) * model.blocks[block].size;
+}
+
+// Those that parted them best are tried first. The others are not, until the two have moved so far that one of them may:
+// a guess for the planes of large blocks, which only makes it find less.
+double parted_by(const Model& model, const State& state, const ContactWork& work, RigidPair& pair) {
+  const std::vector<int>&of_a = work.rigid_pairs.planes[pair.a], &of_b = work.rigid_pairs.planes[pair.b];
+  const auto first = static_cast<int>(of_a.size()), count = first + static_cast<int>(of_b.size());
+  const double slack = std::max(slack_of(model, work, pair.a), slack_of(model, work, pair.b));
+  const auto gap_of = [&](int plane) {
+    return (plane < first ? gap_before(model, state, of_a[plane], pair.b)
+                          : gap_before(model, state, of_b[plane - first], pair.a)) -
+           slack;
+  };
+  for (const int plane : pair.planes)
+    if (plane >= 0)
+      if (const double gap = gap_of(plane); gap > 0)
+        return gap;
+  if (pair.moved < pair.others_until)
+    return 0;
+  using Gap = std::pair<double, int>;
+  std::array<Gap, 5> largest; // the last one: of those that are not kept
+  largest.fill({-std::numeric_limits<double>::infinity(), -1});
+  for (int plane = 0; plane < count; ++plane) {
+    Gap gap(gap_of(plane), plane);
+    for (Gap& known : largest)
+      if (gap.first > known.first)
+        std::swap(gap, known);
+  }
+  for (std::size_t i = 0; i < pair.planes.size(); ++i)
+    pair.planes[i] = largest[i].second;
+  pair.others_until = pair.from - largest.back().first;
+  return std::max(0.0, largest[0].first);
 }
 
 PairsSearched pairs_to_search(const Model& model, const State& state, const ContactWork& work,

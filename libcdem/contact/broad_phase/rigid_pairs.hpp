@@ -34,6 +34,10 @@ bool any_left_skin(RigidPairs&);
 // m, a block with these slacks around it holds all that its nearest places may take for inside.
 double slack_of(const Model&, const ContactWork&, int block);
 
+// m, how far the plane of a face parts the two, at least: until they have moved so far no semi-spring of one stands in the other.
+// 0: no plane was found. Of a pair whose motion is up to date; writes RigidPair::planes and others_until.
+double parted_by(const Model&, const State&, const ContactWork&, RigidPair&);
+
 // What a search finds anew of rigid pairs.
 struct PairsSearched {
   std::vector<RigidPair> pairs; // those there are now, as RigidPairs::all

@@ -255,14 +255,16 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
   for_chunks(static_cast<std::int64_t>(n_own), threads, [&](std::int64_t place) {
     const std::int64_t i = own[place];
     std::vector<Near>&springs = found.springs[place], &edges = found.edges[place];
+    const auto find_between = [&](const SharedPart& part, const Skins& skins) {
+      edges = near_edges(model, state, work, margins, active, part, skins);
+      Pairs near = looked_at(model, work, active, part, skins);
+      springs = near_springs(model, state, work, margins, active, near, skins);
+    };
     if (i >= n_pairs + n_alone) {
       const RigidPair& pair = pairs.pairs[pairs.searched[i - n_pairs - n_alone]];
       const Skins skins(work.travel.skin, pair.skin);
       const auto [a, b] = std::minmax(pair.a, pair.b);
-      const SharedPart part = shared_part(active, a, b, skins);
-      edges = near_edges(model, state, work, margins, active, part, skins);
-      Pairs near = looked_at(model, work, active, part, skins);
-      springs = near_springs(model, state, work, margins, active, near, skins);
+      find_between(shared_part(active, a, b, skins), skins);
       return;
     }
     const Skins skins(work.travel.skin);
@@ -284,9 +286,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
       }
       return;
     }
-    edges = near_edges(model, state, work, margins, active, part, skins);
-    Pairs near = looked_at(model, work, active, part, skins);
-    springs = near_springs(model, state, work, margins, active, near, skins);
+    find_between(part, skins);
   });
   for (std::size_t i = 0; i < n_own; ++i) {
     found.may_go = std::min(found.may_go, may_go[i]);

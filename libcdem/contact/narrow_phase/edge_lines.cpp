@@ -149,6 +149,8 @@ int EdgeLines::edge_with(int id) const {
 bool EdgeLines::carries_at(int triangle, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
                            int other_block) const {
   const ContactTriangle& from = surface_.triangles[triangle];
+  if (!touched_.blocks[from.block] || !touched_.blocks[other_block])
+    return false;
   const int node = surface_.original[from.nodes[corner]];
   const auto block_of = [&](int id) { return surface_.triangles[id / 3].block; };
   const auto direction = [&](int edge) -> geom::Vec3 { // from the node

@@ -39,7 +39,8 @@ public:
 
   // Whether the line of an edge goes straight on through this corner of a triangle, into what the normal leads out of, and
   // the edge carried in a contact with the other block before the step, no further from the semi-spring there, m, than twice
-  // as deep as the two edges are in each other.
+  // as deep as the two edges are in each other. The semi-springs of the node are in the other block then because the edge is, and
+  // would push along the face that happens to be nearest.
   bool carries_at(int triangle, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
                   int other_block) const;
 

@@ -363,15 +363,6 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   return std::sqrt(deepest2);
 }
 
-// Where two edges cross near a node of one of them, the springs of the node are in the other block because the edge is,
-// and would push along the face that happens to be nearest.
-bool Evaluation::edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
-                                 int target) const {
-  const int block = surface_.triangles[source].block, other = surface_.triangles[target].block;
-  return work_.edges_touched.blocks[block] && work_.edges_touched.blocks[other] &&
-         lines_.carries_at(source, corner, spring, normal, other);
-}
-
 // Blocks that lie side by side never end in exactly one plane. Where a face slides over such a step, the springs of its
 // outline come to lie nearest to the side of the next block, which would stop them. They wait until they are nearest to the
 // face that they slide on.
@@ -531,7 +522,7 @@ bool Evaluation::add_contact(int source, int corner, const geom::Vec3& spring, i
   motion.normal = nearest.at.inside || depth < 1e-9 * to.height ? y.normal : (nearest.place - spring) / depth;
   const Corners x = corners_of(model_, state_, from.nodes);
   if (!old && !on.slid_on &&
-      (edge_carries_at(source, corner, spring, motion.normal, nearest.target) ||
+      (lines_.carries_at(source, corner, spring, motion.normal, to.block) ||
        at_a_step(from, unit_normal(x), spring, motion.normal, nearest.target)))
     return false;
   const auto velocities = [&](const geom::Triangle& nodes) -> Corners {

@@ -37,9 +37,6 @@ private:
   // m, what is found now and is d away waits until `moved` is from + d.
   double from(const ContactRow&) const;
   double moved_in_step(const ContactRow&) const; // m
-  // An edge through this corner of the source, into the target, carries there in a contact with the target's block.
-  bool edge_carries_at(int source, int corner, const geom::Vec3& spring, const geom::Vec3& normal,
-                       int target) const;
   // A semi-spring with this outward normal of its own triangle lies beside an edge of the target, and under the face beyond
   // the edge, which faces it better, no deeper than semi-springs stand in.
   bool at_a_step(const ContactTriangle& from, const geom::Vec3& outward, const geom::Vec3& spring,

@@ -11,37 +11,39 @@
 namespace cdem {
 namespace {
 
-// How far, m, two edges may go, both together, before a pair that may not begin now can do so: because their common normal
-// lies outside a fan; or because their nearest places stay at the last end of one of their lines. Before other rules hold, as
-// they are nearly parallel or no longer so.
-struct Hindrance {
-  double by_angle = 0, last_end = 0, other_rules = 0;
-};
-
 // Where tips pass each other sideways an overlap begins with its full force, and the spring that stores as much has no bound.
 // There it is at most so much stiffer than a crossing: it begins without force.
 constexpr double most_share = 10;
 
-double sine_between(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f) {
-  const auto along = [&](const ContactEdge& edge) -> geom::Vec3 {
-    return (place_of(model, state, edge.nodes[1]) - place_of(model, state, edge.nodes[0])).normalized();
+// Two edges as they stand now.
+struct EdgePair {
+  const ContactEdge &e, &f;
+  geom::Vec3 a0, a1, b0, b1, a, b; // m: their ends, and the ways from the first to the second
+  double la, lb, sine;             // m, and of the angle between them
+  double blocks_turn; // rad/m, by which two rigid blocks turn past each other at most; infinite: they deform
+
+  EdgePair(const Model& model, const State& state, const ContactEdge& one, const ContactEdge& other,
+           double turn)
+      : e(one), f(other), a0(place_of(model, state, e.nodes[0])), a1(place_of(model, state, e.nodes[1])),
+        b0(place_of(model, state, f.nodes[0])), b1(place_of(model, state, f.nodes[1])), a(a1 - a0),
+        b(b1 - b0), la(a.norm()), lb(b.norm()), sine(a.cross(b).norm() / (la * lb)), blocks_turn(turn) {}
+};
+
+// The functions below tell how far, m, two edges may go, both together, before something becomes of them that is not now.
+
+// Their nearest places stay at the last end of one of their lines. They move by some times that over the sine between the lines.
+double at_last_end_until(const EdgePair& pair, const NearestOfEdges& nearest, bool e_ends, bool f_ends) {
+  const auto left = [&](bool ends, double place, double length) {
+    return ends && !nearest.nearly_parallel
+               ? (drawn_in - std::min(place, 1 - place)) * length * pair.sine / 16
+               : 0.;
   };
-  return along(e).cross(along(f)).norm();
+  return std::max({0., left(e_ends, nearest.at.s, pair.la), left(f_ends, nearest.at.t, pair.lb)});
 }
 
-// pair_turns: rad/m, by how much two rigid blocks turn past each other at most, over what they move; infinite: they deform.
-Hindrance hindrance_of(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
-                       const NearestOfEdges& nearest, bool e_ends, bool f_ends, double pair_turns) {
-  const geom::Vec3 a = place_of(model, state, e.nodes[1]) - place_of(model, state, e.nodes[0]),
-                   b = place_of(model, state, f.nodes[1]) - place_of(model, state, f.nodes[0]);
-  const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
-  // The nearest places of two lines move by some times that over the sine between them.
-  const auto left = [&](bool ends, double place, double length) {
-    return ends && !nearest.nearly_parallel ? (drawn_in - std::min(place, 1 - place)) * length * sine / 16
-                                            : 0.;
-  };
-  return {0, std::max({0., left(e_ends, nearest.at.s, la), left(f_ends, nearest.at.t, lb)}),
-          0.5 * std::abs(sine - parallel_edges) / std::min(2 / la + 2 / lb, pair_turns)};
+// They stay nearly parallel, or not so.
+double same_rules_until(const EdgePair& pair) {
+  return 0.5 * std::abs(pair.sine - parallel_edges) / std::min(2 / pair.la + 2 / pair.lb, pair.blocks_turn);
 }
 
 // m/s, of its faster end.
@@ -49,32 +51,27 @@ double speed_of(const State& state, const ContactEdge& edge) {
   return std::max(velocity_of(state, edge.nodes[0]).norm(), velocity_of(state, edge.nodes[1]).norm());
 }
 
-// m: until two edges have moved so far they do not touch: either normal lies outside a fan (the Gauss map),
-// or it tells that they are apart. Along a common normal of two lines any two places of them are as far from each other.
-double apart_until(const Model& model, const State& state, const ContactEdge& e, const ContactEdge& f,
-                   const geom::Vec3& way, double pair_turns) {
-  const auto along_of = [&](const ContactEdge& edge) -> geom::Vec3 {
-    return place_of(model, state, edge.nodes[1]) - place_of(model, state, edge.nodes[0]);
-  };
-  const geom::Vec3 a = along_of(e), b = along_of(f);
-  const double la = a.norm(), lb = b.norm(), sine = a.cross(b).norm() / (la * lb);
+// They do not touch: either normal lies outside a fan (the Gauss map), or it tells that they are apart. Along a common normal of
+// two lines any two places of them are as far from each other.
+double apart_until(const Model& model, const State& state, const EdgePair& pair, const geom::Vec3& way) {
+  const double la = pair.la, lb = pair.lb, sine = pair.sine;
   if (sine < parallel_edges)
     return 0;
-  const geom::Vec3 across = a.cross(b) / (sine * la * lb);
+  const geom::Vec3 across = pair.a.cross(pair.b) / (sine * la * lb);
   // An edge turns by at most twice the way of its ends over its length, its faces by what that and the way of their
   // centroids make of it, and the common normal by what both edges make of it over the sine; all of it taken twice. Seen from
   // one of two rigid blocks all of the other turns alike.
   const double turns = 2 / la + 2 / lb; // 1/m
   std::array<double, 2> until{0, 0};    // of the normal along and against `across`
   for (const bool of_f : {false, true}) {
-    const ContactEdge& edge = of_f ? f : e;
-    const geom::Vec3 x0 = place_of(model, state, edge.nodes[0]), x1 = place_of(model, state, edge.nodes[1]);
+    const ContactEdge& edge = of_f ? pair.f : pair.e;
+    const geom::Vec3 &x0 = of_f ? pair.b0 : pair.a0, &x1 = of_f ? pair.b1 : pair.a1;
     const auto into = into_faces(model, state, edge, x0, x1);
     for (int i = 0; i < 2; ++i) {
       const Corners x = corners_of(model, state, model.surface.triangles[edge.triangles[i]].nodes);
       const double arm = ((x[0] + x[1] + x[2]) / 3 - x0).norm(), height = into[i].norm();
       const double rate = std::min(4 * turns / sine + 4 * (1 + 2 * arm / (of_f ? lb : la)) / height,
-                                   (4 / sine + 2) * pair_turns);
+                                   (4 / sine + 2) * pair.blocks_turn);
       for (int sign = 0; sign < 2; ++sign) { // n lies in the fan of f, -n in that of e
         const double outward = (of_f == (sign == 0) ? 1 : -1) * across.dot(into[i]) / height;
         until[sign] = std::max(until[sign], (outward - fan_slack) / rate);
@@ -84,29 +81,23 @@ double apart_until(const Model& model, const State& state, const ContactEdge& e,
   // How far they are apart changes by what they move, and by what their normal turns over the way between them; the latter
   // alone is taken twice.
   constexpr double rounding = 1 - 1e-6;
-  const double turns_least = std::min(turns, pair_turns), along = way.dot(across),
+  const double turns_least = std::min(turns, pair.blocks_turn), along = way.dot(across),
                rate_along = 1 + 4 * way.norm() * turns_least / sine;
   double& other_side = until[along > 0 ? 1 : 0]; // of the normal along which they are apart
   other_side = std::max(other_side, rounding * std::abs(along) / rate_along);
   return std::min({until[0], until[1], 0.25 * sine / turns_least});
 }
 
-// m: until two rigid blocks have moved so far, nearly parallel edges of theirs have no normal between their fans. It turns by
-// twice what the middle of a fan does, over how far the two middles are apart; all of it taken twice.
-double without_normal_until(const Model& model, const State& state, const ContactEdge& e,
-                            const ContactEdge& f, double pair_turns) {
-  if (std::isinf(pair_turns))
+// Nearly parallel edges of two rigid blocks have no normal between their fans. It turns by twice what the middle of a fan does,
+// over how far the two middles are apart; all of it taken twice.
+double without_normal_until(const Model& model, const State& state, const EdgePair& pair) {
+  if (std::isinf(pair.blocks_turn))
     return 0;
-  const auto places = [&](const ContactEdge& edge) {
-    return std::pair(place_of(model, state, edge.nodes[0]), place_of(model, state, edge.nodes[1]));
-  };
-  const auto [a0, a1] = places(e);
-  const auto [b0, b1] = places(f);
-  const geom::Vec3 way = way_between_fans(into_faces(model, state, e, a0, a1),
-                                          into_faces(model, state, f, b0, b1), (a1 - a0).normalized());
-  const double least =
-      falls_away(into_faces(model, state, e, a0, a1), into_faces(model, state, f, b0, b1), way.normalized());
-  return std::max(0.0, (clear_of_faces - least) / ((4 / way.norm() + 2) * pair_turns));
+  const auto into_e = into_faces(model, state, pair.e, pair.a0, pair.a1),
+             into_f = into_faces(model, state, pair.f, pair.b0, pair.b1);
+  const geom::Vec3 way = way_between_fans(into_e, into_f, pair.a.normalized());
+  return std::max(0.0, (clear_of_faces - falls_away(into_e, into_f, way.normalized())) /
+                           ((4 / way.norm() + 2) * pair.blocks_turn));
 }
 
 // Edges along each other that meet tip on tip in this step stop each other. One that slides along a face and over the edge at
@@ -135,7 +126,7 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
   const bool touched = work_.edges_touched.blocks[row.source_block] && work_.edges_touched.blocks[row.block];
   const double moved = this->moved(row), from_here = this->from(row);
   const bool skips = !work_.options.looks_at_all;
-  const double pair_turns =
+  const double blocks_turn =
       row.pair >= 0 ? work_.rigid_pairs.all[row.pair].turns : std::numeric_limits<double>::infinity();
   if (skips && moved < row.recheck_distance && !(row.hindered && touched))
     return;
@@ -163,25 +154,25 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     const bool e_ends = lines_.at_last_end(row.source, nearest.at.s),
                f_ends = lines_.at_last_end(target, nearest.at.t);
     bool may_begin = distance <= limit && !e_ends && !f_ends;
-    if (may_begin && sine_between(model_, state_, e, f) < edges_in_line) {
-      may_begin =
-          may_begin_along(model_, e, f, nearest, work_.step * (speed_of(state_, e) + speed_of(state_, f))) &&
-          !slid_over(e, f, nearest);
-    } else if (may_begin) {
-      // Where the way between them leads out of one of the two bodies, an end that is nearer than the way is long may have a
-      // face that parts them.
-      const double within = leads_into_both(model_, state_, e, f, nearest.way) ? 0 : distance;
-      may_begin = !lines_.cuts_off_end(row.source, nearest.at.s, target, within) &&
-                  !lines_.cuts_off_end(target, nearest.at.t, row.source, within);
-    }
     if (apart <= 0) {
-      Hindrance hindrance = hindrance_of(model_, state_, e, f, nearest, e_ends, f_ends, pair_turns);
-      hindrance.by_angle = nearest.nearly_parallel
-                               ? without_normal_until(model_, state_, e, f, pair_turns)
-                               : apart_until(model_, state_, e, f, nearest.way, pair_turns);
-      candidate.recheck_distance = rounded_down(
-          from_here + std::min(hindrance.other_rules, std::max(hindrance.by_angle, hindrance.last_end)));
-      candidate.springs = hindrance.last_end > hindrance.by_angle ? 1 : 0;
+      const EdgePair pair(model_, state_, e, f, blocks_turn);
+      if (may_begin && pair.sine < edges_in_line) {
+        may_begin =
+            may_begin_along(model_, e, f, nearest, work_.step * (speed_of(state_, e) + speed_of(state_, f))) &&
+            !slid_over(e, f, nearest);
+      } else if (may_begin) {
+        // Where the way between them leads out of one of the two bodies, an end that is nearer than the way is long may have a
+        // face that parts them.
+        const double within = leads_into_both(model_, state_, e, f, nearest.way) ? 0 : distance;
+        may_begin = !lines_.cuts_off_end(row.source, nearest.at.s, target, within) &&
+                    !lines_.cuts_off_end(target, nearest.at.t, row.source, within);
+      }
+      const double by_angle = nearest.nearly_parallel ? without_normal_until(model_, state_, pair)
+                                                      : apart_until(model_, state_, pair, nearest.way),
+                   last_end = at_last_end_until(pair, nearest, e_ends, f_ends);
+      candidate.recheck_distance =
+          rounded_down(from_here + std::min(same_rules_until(pair), std::max(by_angle, last_end)));
+      candidate.springs = last_end > by_angle ? 1 : 0;
     }
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
     row.hindered = row.hindered || candidate.springs != 0;

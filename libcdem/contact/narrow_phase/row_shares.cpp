@@ -9,41 +9,6 @@
 #include <utility>
 
 namespace cdem {
-namespace {
-
-// What a rank reads of surfaces: nodes of triangles and of the tets behind them.
-class NodesRead {
-public:
-  NodesRead(const Model& model, const ContactFragments& fragments)
-      : model_(model), fragments_(fragments), s_(model.surface) {}
-
-  void add_block(int block) {
-    for (int node = model_.blocks[block].node_begin; node < model_.blocks[block].node_end; ++node)
-      nodes_.push_back(node);
-  }
-  void add_surface(int block) {
-    for (int t = s_.block_begin[block]; t < s_.block_begin[block + 1]; ++t)
-      if (fragments_.active[t])
-        add_triangle(t);
-  }
-  std::vector<std::int32_t> take() { return std::move(nodes_); }
-
-private:
-  void add_triangle(int t) {
-    const geom::Triangle& corners = s_.triangles[t].nodes;
-    nodes_.insert(nodes_.end(), corners.begin(), corners.end());
-    const geom::Tet& tet = model_.tets[s_.triangles[t].tet];
-    nodes_.insert(nodes_.end(), tet.begin(), tet.end());
-  }
-
-  const Model& model_;
-  const ContactFragments& fragments_;
-  const ContactSurface& s_;
-  std::vector<std::int32_t> nodes_;
-};
-
-} // namespace
-
 void begin_search(State& state, ContactWork& work) {
   work.shared->gather_surfaces(state);
   work.shared->gather_contacts(state);
@@ -59,7 +24,17 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
       read[row.source_block] = 1;
       each_target_block(model, work, row, [&](int block) { read[block] = 1; });
     }
-  NodesRead nodes(model, work.fragments);
+  const ContactSurface& s = model.surface;
+  std::vector<std::int32_t> nodes;
+  const auto add_surface = [&](int block) { // of its active triangles, and of the tets behind them
+    for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
+      if (work.fragments.active[t]) {
+        const geom::Triangle& corners = s.triangles[t].nodes;
+        const geom::Tet& tet = model.tets[s.triangles[t].tet];
+        nodes.insert(nodes.end(), corners.begin(), corners.end());
+        nodes.insert(nodes.end(), tet.begin(), tet.end());
+      }
+  };
   std::vector<int> rigid;
   for (int b = 0; b < blocks; ++b) {
     const Block& block = model.blocks[b];
@@ -71,12 +46,14 @@ void read_nodes_of_rows(const Model& model, ContactWork& work) {
       continue;
     }
     if (work.knows_motions ||
-        touches_itself(model, work.fragments, b)) // each rank finds all its pairs of tetrahedra
-      nodes.add_block(b);
-    else if (read[b])
-      nodes.add_surface(b);
+        touches_itself(model, work.fragments, b)) { // each rank finds all its pairs of tetrahedra
+      for (int node = block.node_begin; node < block.node_end; ++node)
+        nodes.push_back(node);
+    } else if (read[b]) {
+      add_surface(b);
+    }
   }
-  work.shared->set_further_nodes(nodes.take());
+  work.shared->set_further_nodes(std::move(nodes));
   work.shared->set_further_bodies(std::move(rigid));
 }
 

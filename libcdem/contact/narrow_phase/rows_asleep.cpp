@@ -1,7 +1,6 @@
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
-#include "libcdem/contact/narrow_phase/parted.hpp"
 #include "libcdem/parallel/instruction_set.hpp"
 
 #include <algorithm>

@@ -43,24 +43,6 @@ std::uint64_t pair_of(int block_a, int block_b) {
   return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
 }
 
-// The block of a triangle, of many that mostly lie on one.
-class BlockOfTriangle {
-public:
-  explicit BlockOfTriangle(const ContactSurface& surface) : surface_(surface) {}
-  int operator()(int triangle) {
-    if (triangle < begin_ || triangle >= end_) {
-      block_ = surface_.triangles[triangle].block;
-      begin_ = surface_.block_begin[block_];
-      end_ = surface_.block_begin[block_ + 1];
-    }
-    return block_;
-  }
-
-private:
-  const ContactSurface& surface_;
-  int block_ = -1, begin_ = 0, end_ = 0;
-};
-
 } // namespace
 
 void sum_block_forces(const Model& model, const State& state, ContactWork& work) {
@@ -71,14 +53,12 @@ void sum_block_forces(const Model& model, const State& state, ContactWork& work)
     ExactSum force, stiffness;
   };
   std::vector<Sums> on_rigid(model.rigid.size());
-  BlockOfTriangle of_source(model.surface), of_target(model.surface);
   std::uint64_t last = 0; // no pair: its blocks differ
   PairForces* pair = nullptr;
   for (const Contact& c : state.contacts) {
     if (c.kind == Contact::tets) // within a block
       continue;
-    const auto [source, target] = triangles_of(c);
-    const int a = of_source(source), b = of_target(target);
+    const auto [a, b] = blocks_of(model, c);
     if (last != pair_of(a, b)) { // contacts of a pair stand side by side
       last = pair_of(a, b);
       pair = shares_friction(model, work, a, b) ? &work.pair_forces[last] : nullptr;
