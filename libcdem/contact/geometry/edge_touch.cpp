@@ -6,9 +6,6 @@
 namespace cdem {
 namespace {
 
-// Distance over an edge's length: two points nearer to each other than this have no direction between them.
-constexpr double same_place_of_ends = 1e-9;
-
 // The fan of an edge's outward normals: those that have both its faces behind.
 bool in_fan(const std::array<geom::Vec3, 2>& into, const geom::Vec3& normal) {
   return !(normal.dot(into[0]) > fan_slack * into[0].norm()) &&
@@ -220,17 +217,6 @@ std::optional<EdgeStretch> stretch_of(const std::array<geom::Vec3, 2>& a, const 
   return stretch;
 }
 
-// m, of an edge that bears as much as the two do beside each other: each bears by the area of its triangles.
-double common_length(const Model& model, const ContactEdge& e, double length_e, const ContactEdge& f,
-                     double length_f) {
-  const auto area = [&](const ContactEdge& edge) {
-    const std::vector<ContactTriangle>& t = model.surface.triangles;
-    return t[edge.triangles[0]].area + t[edge.triangles[1]].area;
-  };
-  const double of_e = area(e), of_f = area(f);
-  return (of_e + of_f) / (of_e / length_e + of_f / length_f);
-}
-
 } // namespace
 
 geom::Vec3 way_between_fans(const std::array<geom::Vec3, 2>& into_e, const std::array<geom::Vec3, 2>& into_f,
@@ -272,7 +258,7 @@ NearestOfEdges nearest_of_edges(const Model& model, const State& state, const Co
                into_f = into_faces(model, state, f, b[0], b[1]);
     if (const auto between = normal_between(into_e, into_f, along, clear_of_faces))
       nearest.stretch = stretch_of(a, b, wedge_of(into_e, along), wedge_of(into_f, along), along, *between,
-                                   common_length(model, e, of_a.norm(), f, of_b.norm()));
+                                   0.5 * (of_a.norm() + of_b.norm()));
     if (nearest.stretch)
       nearest.at = {std::clamp((nearest.stretch->place - a[0]).dot(of_a) / of_a.squaredNorm(), 0., 1.),
                     std::clamp((nearest.stretch->place - b[0]).dot(of_b) / of_b.squaredNorm(), 0., 1.)};
@@ -324,8 +310,8 @@ std::optional<EdgeTouch> touch_of(const Model& model, const State& state, const 
   if (!in_fan(into_f, touch.normal) || !in_fan(into_e, -touch.normal))
     return std::nullopt;
   touch.depth = nearest.way.dot(touch.normal);
-  const double distance = nearest.way.norm();
-  if (touch.depth > 0 && !nearest.within_both() && distance > same_place_of_ends * (a1 - a0).norm()) {
+  if (touch.depth > 0 && !nearest.within_both()) {
+    const double distance = nearest.way.norm();
     touch.normal = nearest.way / distance;
     touch.depth = in_fan(into_f, touch.normal) && in_fan(into_e, -touch.normal) ? distance : -distance;
   }

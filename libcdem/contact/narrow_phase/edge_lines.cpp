@@ -239,10 +239,7 @@ bool EdgeLines::nearer(int e, int f, const NearestOfEdges& here, int than_e, int
   const double distance = here.way.norm(), other = than.way.norm();
   const int block = surface_.triangles[edges_.all[e].triangles[0]].block;
   const double same = same_distance * surface_.usual_height[block];
-  if (std::abs(distance - other) > same)
-    return distance < other;
-  // What has stored something stays.
-  return std::tuple(!contact_of(e, f), e, f) < std::tuple(!contact_of(than_e, than_f), than_e, than_f);
+  return std::abs(distance - other) > same ? distance < other : std::pair(e, f) < std::pair(than_e, than_f);
 }
 
 std::vector<int> EdgeLines::line_of(int edge) const {
