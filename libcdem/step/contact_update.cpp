@@ -94,9 +94,6 @@ void ContactUpdate::start_anew(const Model& model, const State& state, ContactWo
   work.options = before.options;
   work.damps = before.damps;
   work.shared = before.shared;
-  if (before.tets_beyond.neighbours.size() ==
-      4 * model.mesh.tet_slot.size()) // tets keep their numbers where nodes are freed
-    work.tets_beyond.neighbours = std::move(before.tets_beyond.neighbours);
   go_on(work);
   if (same_surfaces)
     keep_rigid_pairs(before, work);

@@ -121,37 +121,6 @@ TEST_CASE(
   CHECK(in_crack > 200);
 }
 
-TEST_CASE("nearest: where the sides of a crack lie on each other a place in a tet beside it is inside",
-          "[contact][nearest]") {
-  // Two tets on each other, parted by a crack that pressure has pushed together a little more or less.
-  int in_tets = 0, wrong_by_nearest = 0;
-  for (std::uint64_t i = 0; i < 4000; ++i) {
-    const double overlap = 1e-3 * (geom::uniform(7, i, 20) - 0.5);
-    const Tet upper{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.3, 0.3, 0.8)},
-        lower{Vec3(0, 0, overlap), Vec3(0, 1, overlap), Vec3(1, 0, overlap), Vec3(0.3, 0.3, -0.8)};
-    const Vec3 p = 0.2 * (draw(i, 0) - Vec3::Constant(0.5)) + Vec3(0.3, 0.3, 0);
-    const bool expected = inside(upper, p) || inside(lower, p);
-    cdem::NearestOfTets nearest;
-    int face = 0;
-    for (const Tet& tet :
-         {upper, lower}) { // the sides of the crack: of both tets the triangle across from the last corner
-      const Corners x{tet[0], tet[2], tet[1]};
-      const Vec3 normal = cdem::unit_normal(x);
-      nearest.add(cdem::nearest_of(face++, p, x, normal), x, normal, 1, true, p, [&] { return tet[3]; });
-    }
-    const cdem::Nearest found = nearest.found();
-    CHECK(found.inside() == expected);
-    in_tets += expected ? 1 : 0;
-    wrong_by_nearest += nearest.of_all.inside() != expected ? 1 : 0;
-    if (!expected)
-      continue;
-    CHECK(found.height < 0); // pushed out along the normal of the triangle it is behind
-    CHECK(std::sqrt(found.distance2) <= std::abs(p.z()) + std::abs(overlap) + 1e-12);
-  }
-  CHECK(in_tets > 3000);
-  CHECK(wrong_by_nearest > 100);
-}
-
 TEST_CASE(
     "nearest: what stands over the triangle that holds its nearest place is not inside, whatever others say",
     "[contact][nearest]") {

@@ -27,8 +27,8 @@ struct Near {
 };
 
 // pairs: (source, target), of one or two blocks; they are sorted by source, fragment of the target and target.
-std::vector<Near> near_springs(const Model&, const State&, const ContactWork&, const SearchMargin&,
-                               const ActiveSurface&, Pairs& pairs, const Skins&);
+std::vector<Near> near_springs(const Model&, const ContactWork&, const SearchMargin&, const ActiveSurface&,
+                               Pairs& pairs, const Skins&);
 
 // Near edges of two blocks. The edge with the lower number is the source.
 std::vector<Near> near_edges(const Model&, const State&, const ContactWork&, const SearchMargin&,

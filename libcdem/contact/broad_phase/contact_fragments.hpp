@@ -14,7 +14,7 @@ inline bool of_several_tets(const ContactFragments& fragments, int number) {
   return number >= 0 && fragments.triangles_of_tet[number][0] < 0;
 }
 
-// Bonds hold its tets together.
+// Bonds hold its tets together: cracks may end in it, and its surface need not be closed.
 inline bool held_by_bonds(const ContactFragments& fragments, int number) {
   return of_several_tets(fragments, number) && !fragments.one_piece[number];
 }

@@ -20,10 +20,9 @@ double least_distance2(const geom::Vec3& x, const Corners& triangle) {
 // Springs of one source triangle that may meet one fragment.
 class SpringsOfSource {
 public:
-  SpringsOfSource(const Model& model, const State& state, const ContactWork& work,
-                  const SearchMargin& margins, const ActiveSurface& active, const Skins& skins)
-      : s_(model.surface), model_(model), state_(state), work_(work), margins_(margins), active_(active),
-        skins_(skins) {}
+  SpringsOfSource(const Model& model, const ContactWork& work, const SearchMargin& margins,
+                  const ActiveSurface& active, const Skins& skins)
+      : s_(model.surface), model_(model), work_(work), margins_(margins), active_(active), skins_(skins) {}
 
   // pairs [begin, end)
   void add(const Pairs& pairs, std::size_t begin, std::size_t end, std::vector<Near>& out) {
@@ -40,6 +39,7 @@ public:
     const double deepest = std::min(2 * depth_of(work_.sizes, from), margins_(from) + margin_of_targets);
     find_nearest(pairs, begin, end, skins,
                  (1 + 8 * same_place) * (deepest + 3 * skins) + 8 * one_place_of_targets);
+    const bool cracked = held_by_bonds(work_.fragments, fragment(pairs[begin].second));
     std::array<double, 3> need{};
     for (int corner = 0; corner < 3; ++corner) {
       const Nearest& found = nearest_[corner];
@@ -49,11 +49,8 @@ public:
       const ContactTriangle& to = triangle(found.target);
       const double d = std::sqrt(found.distance2);
       const double deep = std::min(2 * depth_limit(work_.sizes, from, to), margins_(from) + margins_(to));
-      if (d <= (found.inside() ? deep + skins : skins))
+      if (d <= (found.inside() || cracked ? deep + skins : skins))
         need[corner] = d + 2 * skins;
-      for (const HoldingTet& tet : holding_[corner])
-        if (tet.distance <= deepest + skins)
-          need[corner] = std::max(need[corner], tet.distance + 2 * skins);
     }
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t springs = 0;
@@ -77,27 +74,6 @@ private:
   // m, within which places count as one with the nearest.
   double one_place(const ContactTriangle& to) const { return gives_ * to.height; }
 
-  // A tetrahedron of a fragment that holds a spring, or may do so before the next search: m, to the nearest of its triangles.
-  // The spring is inside then, also where it stands over the nearest triangle of all, as where parts of the fragment that
-  // hang together elsewhere are pressed into each other.
-  struct HoldingTet {
-    int tet;
-    double distance;
-  };
-  void add_holding(int corner, int target, const Nearest& found, const geom::Vec3& spring, double skins) {
-    const ContactTriangle& triangle = this->triangle(target);
-    if (found.height > skins || outside_tet(active_.facets[target].x, apex_of(model_, state_, triangle),
-                                            spring, found.height) > skins)
-      return;
-    const double distance = std::sqrt(found.distance2);
-    for (HoldingTet& known : holding_[corner])
-      if (known.tet == triangle.tet) {
-        known.distance = std::min(known.distance, distance);
-        return;
-      }
-    holding_[corner].push_back({triangle.tet, distance});
-  }
-
   // What is further off than `reach` is left out: nothing comes of it, nor is it one place with what something comes of.
   void find_nearest(const Pairs& pairs, std::size_t begin, std::size_t end, double skins, double reach) {
     const Corners& x = active_.facets[pairs[begin].first].x;
@@ -110,12 +86,8 @@ private:
                        triangle(pairs[begin].second).block, skins_) &&
           active_.in_outline(fragment(pairs[begin].second), spring[corner], skins);
     }
-    const bool of_tets = of_several_tets(work_.fragments, fragment(pairs[begin].second));
-    std::array<NearestOfTets, 3> of_surface;
     nearest_ = {};
     distance_.clear();
-    for (std::vector<HoldingTet>& each : holding_)
-      each.clear();
     for (std::size_t i = begin; i < end; ++i) {
       const int target = pairs[i].second;
       const Facet& to = active_.facets[target];
@@ -126,30 +98,20 @@ private:
           continue;
         const Nearest found = nearest_of(target, spring[corner], to.x, to.normal);
         each[corner] = std::sqrt(found.distance2);
-        if (!of_tets) {
-          take_nearer(nearest_[corner], found, to.x, to.normal, triangle(target).height, gives_);
-          continue;
-        }
-        of_surface[corner].add(found, to.x, to.normal, triangle(target).height, gives_, spring[corner],
-                               [&] { return apex_of(model_, state_, triangle(target)); });
-        add_holding(corner, target, found, spring[corner], skins);
+        take_nearer(nearest_[corner], found, to.x, to.normal, triangle(target).height, gives_);
       }
     }
-    for (int corner = 0; of_tets && corner < 3; ++corner)
-      nearest_[corner] = of_surface[corner].found();
   }
 
   const ContactSurface& s_;
   const Model& model_;
-  const State& state_;
   const ContactWork& work_;
   const SearchMargin& margins_;
   const ActiveSurface& active_;
   const Skins& skins_;
-  double gives_ = 0;                               // of the fragment
-  std::array<Nearest, 3> nearest_;                 // of each spring
-  std::array<std::vector<HoldingTet>, 3> holding_; // of each spring
-  std::vector<std::array<double, 3>> distance_;    // m, of each target from each spring
+  double gives_ = 0;                            // of the fragment
+  std::array<Nearest, 3> nearest_;              // of each spring
+  std::vector<std::array<double, 3>> distance_; // m, of each target from each spring
 };
 
 // By source, fragment of the target and target: sources are counted, and only the few targets of each are compared.
@@ -185,9 +147,8 @@ void sort_by_source(Pairs& pairs, const Piece& fragment) {
 
 } // namespace
 
-std::vector<Near> near_springs(const Model& model, const State& state, const ContactWork& work,
-                               const SearchMargin& margins, const ActiveSurface& active, Pairs& pairs,
-                               const Skins& skins) {
+std::vector<Near> near_springs(const Model& model, const ContactWork& work, const SearchMargin& margins,
+                               const ActiveSurface& active, Pairs& pairs, const Skins& skins) {
   const auto fragment = [&](const std::pair<int, int>& p) {
     return work.fragments.of_triangle[active.triangles[p.second]];
   };
@@ -195,7 +156,7 @@ std::vector<Near> near_springs(const Model& model, const State& state, const Con
   std::vector<Near> out;
   if (pairs.empty())
     return out;
-  SpringsOfSource springs(model, state, work, margins, active, skins);
+  SpringsOfSource springs(model, work, margins, active, skins);
   for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
     while (end < pairs.size() && pairs[end].first == pairs[begin].first &&
            fragment(pairs[end]) == fragment(pairs[begin]))

@@ -8,7 +8,6 @@
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/rows.hpp"
 #include "libcdem/contact/broad_phase/search_shares.hpp"
-#include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/geometry/face_cover.hpp"
 #include "libcdem/contact/geometry/positions.hpp"
 #include "libcdem/contact/geometry/semi_edges.hpp"
@@ -158,7 +157,6 @@ std::vector<int> tell_fragments_apart(const Model& model, const State& state, Co
   const ContactSurface& s = model.surface;
   const std::vector<int> before = std::move(work.edges.begin);
   find_contact_fragments(model, state, work.fragments);
-  find_tets_beyond(model, work.fragments, work.tets_beyond);
   work.edges = find_semi_edges(model, state, work.fragments, std::move(work.edges.of_broken));
   find_pairwise(model, state, work.fragments, work.rigid_pairs);
   std::vector<int> shift;
@@ -258,7 +256,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     const auto find_between = [&](const SharedPart& part, const Skins& skins) {
       edges = near_edges(model, state, work, margins, active, part, skins);
       Pairs near = looked_at(model, work, active, part, skins);
-      springs = near_springs(model, state, work, margins, active, near, skins);
+      springs = near_springs(model, work, margins, active, near, skins);
     };
     if (i >= n_pairs + n_alone) {
       const RigidPair& pair = pairs.pairs[pairs.searched[i - n_pairs - n_alone]];
@@ -271,7 +269,7 @@ bool search_contacts(const Model& model, const State& state, ContactWork& work, 
     if (i >= n_pairs) {
       NearWithin near = near_within(model, work, margins, active, alone[i - n_pairs]);
       edges = near_edges_within(model, state, work, margins, active, near.meeting);
-      springs = near_springs(model, state, work, margins, active, near.looked_at, skins);
+      springs = near_springs(model, work, margins, active, near.looked_at, skins);
       return;
     }
     const auto [a, b] = blocks[i];

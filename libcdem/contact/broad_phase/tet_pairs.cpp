@@ -1,7 +1,6 @@
 #include "libcdem/contact/broad_phase/tet_pairs.hpp"
 
 #include "libcdem/contact/broad_phase/tet_paths.hpp"
-#include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/data/tet_contacts.hpp"
 #include "libcdem/contact/response/tet_potential.hpp"
 #include "libcdem/model/build/contact_surface.hpp"
@@ -55,6 +54,24 @@ bool may_touch(const TetContacts& of, int a, int b) {
       if (m == n)
         return false;
   return true;
+}
+
+// The tets of the block that have a node on its surface, as it is now, by their places in Block.
+std::vector<char> tets_at_surface(const Model& model, const ContactFragments& fragments, int block) {
+  const ContactSurface& s = model.surface;
+  const Block& b = model.blocks[block];
+  std::vector<char> on_surface(s.original.size(), 0); // of the mesh before it was split
+  for (int t = s.block_begin[block]; t < s.block_begin[block + 1]; ++t)
+    if (fragments.active[t])
+      for (const int node : s.triangles[t].nodes)
+        on_surface[s.original[node]] = 1;
+  std::vector<char> at_surface;
+  for (int tet = b.tet_begin; tet < b.tet_end; ++tet) {
+    const geom::Tet& n = model.tets[tet];
+    at_surface.push_back(static_cast<char>(
+        std::any_of(n.begin(), n.end(), [&](int node) { return on_surface[s.original[node]] != 0; })));
+  }
+  return at_surface;
 }
 
 // The tetrahedra at the surface and the next ones below it.

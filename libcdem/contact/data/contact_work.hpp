@@ -61,14 +61,6 @@ struct Searches {
   std::int64_t count = 0;
 };
 
-// Neighbours of tets of blocks that have broken.
-struct TetsBeyond {
-  static constexpr int none = -1, deep = -2; // it is the surface; the tet has no node on the surface
-  std::vector<int> neighbours;               // mesh_neighbours; empty before any block has broken
-  // By tet of the mesh and by its faces (geom::tet_faces): the tet that whole bonds, or nodes, hold to it there; or why there is none.
-  std::vector<std::array<int, 4>> of_tet;
-};
-
 // Motion of a block as a whole.
 struct BlockMotion {
   bool whole = false; // it has one
@@ -85,7 +77,6 @@ struct ContactWork {
   ContactOptions options;
   SurfaceSizes sizes;
   ContactFragments fragments;
-  TetsBeyond tets_beyond; // written by find_tets_beyond for the fragments that are known
   SurfaceEdges edges;
   FlatFaces faces; // written by start_contact
   BlockTravel travel;

@@ -6,7 +6,6 @@
 #include "libgeom/query/closest.hpp"
 
 #include <cmath>
-#include <cstdint>
 
 namespace cdem {
 
@@ -27,11 +26,10 @@ struct Nearest {
   geom::Vec3 place = geom::Vec3::Zero();
   geom::Vec3 outward = geom::Vec3::Zero(); // sum of the normals, weighted
   geom::Vec3 from = geom::Vec3::Zero();    // m, the spring from the place
-  bool in_tet = false;                     // the spring is in a tet of the fragment
 
   // It is behind the target, too: pushed out, what is over it would go further. From within a closed surface the nearest
   // place is on no edge but one that is turned in, and the spring is behind both triangles there.
-  bool inside() const { return target >= 0 && (in_tet || (outward.dot(from) < 0 && height < 0)); }
+  bool inside() const { return target >= 0 && outward.dot(from) < 0 && height < 0; }
 };
 
 // rad, that the triangle fills around a place of it.
@@ -55,12 +53,9 @@ inline Nearest nearest_of(int target, const geom::Vec3& spring, const Corners& x
   return found;
 }
 
-// A triangle's place against the nearest before: further off; one place with it; nearer.
-enum class Taken : std::uint8_t { no, beside, instead };
-
 // size: m, of the tets there; gives: of their edges, over the size.
-inline Taken take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
-                         double size, double gives) {
+inline void take_nearer(Nearest& nearest, Nearest other, const Corners& x, const geom::Vec3& normal,
+                        double size, double gives) {
   const bool bonded = gives > same_place_at_least;
   const double further = std::sqrt(std::max(nearest.distance2, other.distance2));
   const double apart = further - std::sqrt(std::min(nearest.distance2, other.distance2));
@@ -73,7 +68,7 @@ inline Taken take_nearer(Nearest& nearest, Nearest other, const Corners& x, cons
   const bool one_place = nearest.target >= 0 && (on_edges || !bonded) &&
                          (other.place - nearest.place).squaredNorm() <= reach * reach;
   if (!one_place && nearest.target >= 0 && other.distance2 >= nearest.distance2)
-    return Taken::no;
+    return;
   other.outward = angle_at(other.at, x) * normal;
   if (one_place)
     other.outward += nearest.outward;
@@ -85,62 +80,6 @@ inline Taken take_nearer(Nearest& nearest, Nearest other, const Corners& x, cons
     nearest.outward = other.outward;
   else
     nearest = other;
-  return one_place ? Taken::beside : Taken::instead;
-}
-
-// m, that the place stands outside the tet that a triangle bounds, at least; below 0: it is inside. apex: the tet's corner
-// that is not the triangle's; height: m, over the triangle's plane.
-inline double outside_tet(const Corners& x, const geom::Vec3& apex, const geom::Vec3& place, double height) {
-  double outside = height;
-  for (int i = 0; i < 3; ++i) {
-    const geom::Vec3 &a = x[i], &b = x[(i + 1) % 3];
-    outside = std::max(outside, (apex - a).cross(b - a).normalized().dot(place - a));
-  }
-  return outside;
-}
-
-// The nearest place of a fragment of several tets. Both sides of a crack may be equally near to a spring, and near the
-// crack's end they belong to one fragment: then the nearest triangle does not tell on which side of the surface the spring
-// is. But a spring in the tet of the nearest triangle that it is behind is inside, and gets out only where it is behind one.
-struct NearestOfTets {
-  Nearest of_all, behind; // behind: without triangles that the spring stands over
-  bool in_tet = false;
-
-  // apex: gives the corner of the triangle's tet that is not the triangle's.
-  template <class Apex>
-  void add(const Nearest& found, const Corners& x, const geom::Vec3& normal, double size, double gives,
-           const geom::Vec3& spring, const Apex& apex) {
-    take_nearer(of_all, found, x, normal, size, gives);
-    if (found.at.inside && found.height >= 0)
-      return;
-    const Taken taken = take_nearer(behind, found, x, normal, size, gives);
-    if (taken != Taken::no)
-      in_tet = (taken == Taken::beside && in_tet) ||
-               (found.height < 0 && outside_tet(x, apex(), spring, found.height) <= 0);
-  }
-  Nearest found() const {
-    if (!in_tet)
-      return of_all;
-    Nearest found = behind;
-    found.in_tet = true;
-    return found;
-  }
-};
-
-// m, that a spring which stands outside a fragment of several tets may go, at least, before one triangle makes it stand
-// inside. The surface that it sees need not be closed: parts of the fragment that hang together elsewhere are pressed into
-// each other, and cracks end in it. So a triangle counts that the spring is behind, once it is the nearest, counts as one place
-// with it, or its tet holds the spring. No contact begins deeper than `shallow`. on: its place on that triangle; least: m, to
-// the nearest; one_place: m, places so much further off than the nearest may count as one with it.
-template <class Apex>
-double outside_until(const Nearest& on, const Corners& x, const geom::Vec3& spring, double least,
-                     double one_place, double shallow, const Apex& apex) {
-  const double distance = std::sqrt(on.distance2), nearest = 0.5 * (distance - least - one_place),
-               behind = on.height - one_place - std::sqrt(2 * distance * one_place),
-               known = std::max(0.5 * (distance - shallow), behind);
-  if (known >= nearest)
-    return known;
-  return std::max(known, std::min(nearest, 0.5 * outside_tet(x, apex(), spring, on.height)));
 }
 
 } // namespace cdem

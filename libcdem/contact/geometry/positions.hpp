@@ -19,14 +19,6 @@ inline Corners corners_of(const Model& model, const State& state, const geom::Tr
   return {place_of(model, state, nodes[0]), place_of(model, state, nodes[1]),
           place_of(model, state, nodes[2])};
 }
-// Where the corner of a triangle's tet is that is not the triangle's own.
-inline geom::Vec3 apex_of(const Model& model, const State& state, const ContactTriangle& triangle) {
-  const geom::Triangle& own = triangle.nodes;
-  const geom::Tet& tet = model.tets[triangle.tet];
-  return place_of(model, state, *std::find_if(tet.begin(), tet.end(), [&](int node) {
-                    return std::find(own.begin(), own.end(), node) == own.end();
-                  }));
-}
 inline geom::Vec3 unit_normal(const Corners& x) {
   return (x[1] - x[0]).cross(x[2] - x[0]).normalized();
 }

@@ -3,7 +3,6 @@
 #include "libcdem/contact/broad_phase/contact_fragments.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"
 #include "libcdem/contact/broad_phase/search.hpp"
-#include "libcdem/contact/broad_phase/tets_beyond.hpp"
 #include "libcdem/contact/narrow_phase/rows_asleep.hpp"
 #include "libcdem/contact/response/contact_point.hpp"
 #include "libgeom/core/portable.hpp"
@@ -103,8 +102,7 @@ Contact spring_contact(int source, int corner, int fragment) {
 struct Distances {
   double least = std::numeric_limits<double>::infinity(), second = least; // m
   double tet = 0;                                                         // m, the highest behind a target
-  double asleep = least; // m, until the first of those that sleep is looked at again
-  int target = -1;       // the nearest
+  int target = -1;                                                        // the nearest
 
   void add(double distance, int of, double height) {
     tet = std::max(tet, height);
@@ -115,10 +113,9 @@ struct Distances {
     }
   }
   // A target that sleeps is at least so far off.
-  void add_asleep(double distance, double sleeps, double height) {
+  void add_asleep(double distance, double height) {
     tet = std::max(tet, height);
     second = std::min(second, distance);
-    asleep = std::min(asleep, sleeps);
   }
 };
 
@@ -191,13 +188,8 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
                               std::array<Nearest, 3>& nearest) {
   const double moved = this->moved(row), from = this->from(row);
   const double gives = gives_of(model_, work_, row.block, row.fragment);
-  const bool of_tets = of_several_tets(work_.fragments, row.fragment),
-             gives_way = held_by_bonds(work_.fragments, row.fragment);
-  std::array<NearestOfTets, 3> of_surface;
+  const bool cracked = held_by_bonds(work_.fragments, row.fragment);
   std::array<Distances, 3> distances;
-  for (std::vector<Nearest>& each : awake_)
-    each.clear();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   float recheck_distance = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = row.begin; i < row.begin + row.count; ++i) {
     ContactCandidate& candidate = candidates[i];
@@ -207,9 +199,7 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
       for (int corner = 0; corner < 3; ++corner)
         if (candidate.springs >> corner & 1u)
-          distances[corner].add_asleep(row.reach + candidate.recheck_distance - moved,
-                                       gives_way ? candidate.recheck_distance - moved : infinity,
-                                       triangle.height);
+          distances[corner].add_asleep(row.reach + candidate.recheck_distance - moved, triangle.height);
       continue;
     }
     const Facet& y = facet(target);
@@ -220,14 +210,7 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
       const Nearest found = nearest_of(target, spring[corner], y.x, y.normal);
       least2 = std::min(least2, found.distance2);
       distances[corner].add(std::sqrt(found.distance2), target, triangle.height);
-      if (!of_tets) {
-        take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, gives);
-        continue;
-      }
-      of_surface[corner].add(found, y.x, y.normal, triangle.height, gives, spring[corner],
-                             [&] { return apex_of(model_, state_, triangle); });
-      if (gives_way)
-        awake_[corner].push_back(found);
+      take_nearer(nearest[corner], found, y.x, y.normal, triangle.height, gives);
     }
     // It sleeps no longer than it is too far off to count as one place with what a contact may begin at.
     const double one_place = gives * triangle.height + 4 * same_place * row.reach;
@@ -236,8 +219,6 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
   }
   row.recheck_distance = recheck_distance;
-  for (int corner = 0; of_tets && corner < 3; ++corner)
-    nearest[corner] = of_surface[corner].found();
   for (int corner = 0; corner < 3; ++corner) {
     const Distances& d = distances[corner];
     const double least = std::min(d.least, d.second);
@@ -249,21 +230,12 @@ void Evaluation::find_nearest(ContactRow& row, ContactCandidate* candidates, boo
     // Places nearer to each other than this may count as one.
     const double one_place = gives * d.tet + 4 * same_place * least;
     double until = 0;
-    const bool inside = nearest[corner].inside();
-    row.known_target[corner] = inside ? d.target : -1;
-    if (row.known_target[corner] < 0) // what is outside gets in through the surface, where it is closed
-      until = std::min(least - 4 * one_place, d.asleep);
+    row.known_target[corner] = nearest[corner].inside() ? d.target : -1;
+    if (row.known_target[corner] <
+        0) // what is outside gets in through the surface; that of a crack is not closed
+      until = least - 4 * one_place - (cracked ? row.reach : 0);
     else if (d.target == nearest[corner].target)
       until = 0.5 * (d.second * (1 - 4 * same_place) - least - one_place);
-    if (!inside)
-      for (const Nearest& on : awake_[corner]) {
-        if (until <= 0)
-          break;
-        const Corners& x = facet(on.target).x;
-        until = std::min(until, outside_until(on, x, spring[corner], least, one_place, row.reach, [&] {
-                           return apex_of(model_, state_, surface_.triangles[on.target]);
-                         }));
-      }
     row.known_until[corner] = rounded_down(from + std::max(0.0, until));
   }
 }
@@ -290,19 +262,14 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
   const double moved = this->moved(row), ways = moved_in_step(row);
   std::array<Nearest, 3> nearest;
   float sleeps = std::numeric_limits<float>::infinity();
-  bool looks = all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end());
+  const bool looks = all || moved >= *std::min_element(row.known_until.begin(), row.known_until.end());
   if (!looks) {
     const double gives = gives_of(model_, work_, row.block, row.fragment);
-    const bool of_tets = of_several_tets(work_.fragments, row.fragment);
     row.recheck_distance = 0;
     for (int corner = 0; corner < 3; ++corner)
-      if (row.known_target[corner] >= 0) {
+      if (row.known_target[corner] >= 0)
         nearest[corner] = nearest_on(row.known_target[corner], spring[corner], gives);
-        // It has come out through the nearest triangle, and may stand in another tet of the fragment.
-        looks = looks || (of_tets && !nearest[corner].inside());
-      }
-  }
-  if (looks) {
+  } else {
     if (stand_outside(row, spring))
       return 0;
     nearest = {};
@@ -326,11 +293,6 @@ double Evaluation::narrow_phase(ContactRow& row, ContactCandidate* candidates, b
       continue;
     }
     const Nearest& found = *pressed;
-    if (!found.in_tet && held_by_bonds(work_.fragments, work_.fragments.number_of_triangle[found.target]) &&
-        !stands_within(model_, state_, work_.tets_beyond, found.target, found.place, spring[corner])) {
-      sleeps = 0;
-      continue;
-    }
     const double shallow = std::min(work_.sizes.shallow[source.block],
                                     work_.sizes.shallow[surface_.triangles[found.target].block]);
     const auto sleep_without_contact = [&] { // too deep to begin, by the motion of the step too

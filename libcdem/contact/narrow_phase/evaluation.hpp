@@ -137,9 +137,7 @@ private:
   };
   TwoFaces& two_faces(int f, int g);
   std::array<TwoFaces, 8> two_faces_; // by the last bits of the numbers of both
-  std::array<std::vector<Nearest>, 3>
-      awake_;                    // of a row's semi-springs: their places on the targets that were looked at
-  std::array<Facet, 64> facets_; // by the last bits of a triangle's number
+  std::array<Facet, 64> facets_;      // by the last bits of a triangle's number
   std::array<int, 64> facet_of_;
 };
 

@@ -157,9 +157,9 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
     if (apart <= 0) {
       const EdgePair pair(model_, state_, e, f, blocks_turn);
       if (may_begin && pair.sine < edges_in_line) {
-        may_begin =
-            may_begin_along(model_, e, f, nearest, work_.step * (speed_of(state_, e) + speed_of(state_, f))) &&
-            !slid_over(e, f, nearest);
+        may_begin = may_begin_along(model_, e, f, nearest,
+                                    work_.step * (speed_of(state_, e) + speed_of(state_, f))) &&
+                    !slid_over(e, f, nearest);
       } else if (may_begin) {
         // Where the way between them leads out of one of the two bodies, an end that is nearer than the way is long may have a
         // face that parts them.
