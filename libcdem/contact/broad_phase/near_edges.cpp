@@ -154,33 +154,19 @@ std::vector<Near> near_edges(const Model& model, const State& state, const Conta
 std::vector<Near> near_edges_within(const Model& model, const State& state, const ContactWork& work,
                                     const SearchMargin& margins, const ActiveSurface& active,
                                     const Pairs& meeting) {
-  std::vector<int> triangles;
-  for (const auto& [i, j] : meeting) {
-    triangles.push_back(active.triangles[i]);
-    triangles.push_back(active.triangles[j]);
-  }
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  Bars bars(model, state, work, Skins(work.travel.skin));
   geom::Box everywhere;
   std::swap(everywhere.min, everywhere.max);
-  for (const int t : triangles)
-    bars.add(t, everywhere);
-  const auto edges_of = [&](int place) { // [first, last) in bars
-    const auto at = [&](int edge) {
-      return static_cast<std::size_t>(std::lower_bound(bars.edges().begin(), bars.edges().end(), edge) -
-                                      bars.edges().begin());
-    };
-    const int t = active.triangles[place];
-    return std::pair(at(work.edges.begin[t]), at(work.edges.begin[t + 1]));
+  const auto bars_of = [&](int place) {
+    Bars bars(model, state, work, Skins(work.travel.skin));
+    bars.add(active.triangles[place], everywhere);
+    return bars;
   };
   std::vector<Near> out;
   for (const auto& [i, j] : meeting) {
-    const auto [k_begin, k_end] = edges_of(i);
-    const auto [l_begin, l_end] = edges_of(j);
-    for (std::size_t k = k_begin; k < k_end; ++k)
-      for (std::size_t l = l_begin; l < l_end; ++l)
-        add_near(model, work, margins, bars, k, bars, l, out);
+    Bars one = bars_of(i), other = bars_of(j);
+    for (std::size_t k = 0; k < one.edges().size(); ++k)
+      for (std::size_t l = 0; l < other.edges().size(); ++l)
+        add_near(model, work, margins, one, k, other, l, out);
   }
   return out;
 }
