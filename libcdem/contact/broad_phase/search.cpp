@@ -2,7 +2,6 @@
 
 #include "libcdem/bond/release.hpp"
 
-#include "libcdem/contact/broad_phase/block_travel.hpp"
 #include "libcdem/contact/broad_phase/candidates.hpp"
 #include "libcdem/contact/broad_phase/contact_fragments.hpp"
 #include "libcdem/contact/broad_phase/rigid_pairs.hpp"

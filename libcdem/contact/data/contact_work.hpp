@@ -2,7 +2,6 @@
 // has moved further than its skin. The search never changes a force.
 #pragma once
 
-#include "libcdem/contact/data/block_travel.hpp"
 #include "libcdem/contact/data/contact_force.hpp"
 #include "libcdem/contact/data/contact_fragments.hpp"
 #include "libcdem/contact/data/contact_rows.hpp"
@@ -41,6 +40,14 @@ struct SurfaceSizes {
   std::vector<double> shallow;
   std::vector<double> bonds_give; // per block, over a tet's height: how far bonds let edges part
   std::vector<char> freed;        // per block: some of its faces have been
+};
+
+// How far the blocks have moved since they were searched.
+struct BlockTravel {
+  std::vector<double> skin; // m, per block: how far it may go before the next search; written by choose_skins
+  std::vector<double> travelled;         // m, per block, at most, since the search
+  std::vector<double> last_displacement; // m, per block, of its fastest node in the last step
+  double last_step = 0;                  // s, the last one in which anything moved
 };
 
 // When a search is due, and what has come of those before.
