@@ -159,6 +159,29 @@ TEST_CASE("contact: an edge led off the end of another lets go, however short th
   CHECK(contacts == 0);
 }
 
+TEST_CASE("contact: a ridge whose end is drawn over the edge of a box is not held back there",
+          "[contact][edges]") {
+  // A bar lies with its ridge on the top of a box, and reaches over its edge.
+  const double d = 2e-4, gap = 1e-4, across = 0.1 * std::sqrt(2.0);
+  System s(build({meshed("lower", box_at({1, 1, 0.5}, {2, 2, 1}, Mat3::Identity(), {-0.5, 0.02, -0.25})),
+                  meshed("upper", box_at({0.9, 0.2, 0.2}, {5, 1, 1}, rotation({1, 0, 0}, 45 * degree),
+                                         {-0.4, 0, across + gap}))},
+                 {{"lower", "upper", friction(0)}}));
+  s.hold(body_of("lower"), "xyz");
+  double upwards = 0, along = 0; // N, the largest
+  const auto look = [&] {
+    Vec3 force = Vec3::Zero();
+    for (const cdem::Contact& c : s.state.contacts)
+      force += (cdem::blocks_of(s.model, c).first == 1 ? 1 : -1) * normal_force(s, c) * c.normal;
+    upwards = std::max(upwards, force.z());
+    along = std::max(along, std::abs(force.x()));
+  };
+  move_upper(s, {0, 0, -gap - d}, 50, look);
+  REQUIRE(upwards > 0);
+  move_upper(s, {-0.06, 0, 0}, 50, look, 2); // 0.01 m too far
+  CHECK(along < 1e-3 * upwards);
+}
+
 TEST_CASE("contact: an edge across a corner of an outline presses on both sides of it", "[contact][edges]") {
   // The plate's outline is bent by 28 degrees in its plane: a straight edge crosses it twice, in and out again.
   const double d = 2e-4, gap = 1e-4, slope = 0.25, at = 0.16;
