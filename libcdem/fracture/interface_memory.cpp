@@ -5,6 +5,7 @@
 #include "libgeom/query/closest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace cdem {
@@ -35,19 +36,31 @@ SpringMemory memory_of(const Model& model, const State& state, int p) {
   return m;
 }
 
-void add(SpringMemory& sum, const SpringMemory& m, double weight) {
-  sum.preload += weight * m.preload;
-  sum.shear += weight * m.shear;
-  sum.slid += weight * m.slid;
-  sum.history.slip += weight * m.history.slip;
-  sum.history.path += weight * m.history.path;
-  sum.history.dilation += weight * m.history.dilation;
-  sum.history.parted += weight * m.history.parted;
-  sum.bond_slip += weight * m.bond_slip;
-  sum.damage += weight * m.damage;
-  sum.water += weight * m.water;
-  sum.usual += weight * m.usual;
-  sum.rested += weight * m.rested;
+// weights: >= 0, of the three. Rounding leaves no mean beyond the numbers it is of: bounds that all of them keep hold on.
+SpringMemory mean_of(const std::array<const SpringMemory*, 3>& of, const geom::Vec3& weights) {
+  SpringMemory m;
+  for (int k = 0; k < 3; ++k) {
+    m.shear += weights[k] * of[k]->shear;
+    m.slid += weights[k] * of[k]->slid;
+    m.history.slip += weights[k] * of[k]->history.slip;
+    m.bond_slip += weights[k] * of[k]->bond_slip;
+  }
+  const auto average = [&](const auto& number) {
+    const geom::Vec3 all(number(*of[0]), number(*of[1]), number(*of[2]));
+    number(m) = std::clamp(weights.dot(all), all.minCoeff(), all.maxCoeff());
+  };
+  average([](auto& s) -> auto& { return s.preload; });
+  average([](auto& s) -> auto& { return s.history.path; });
+  average([](auto& s) -> auto& { return s.history.dilation; });
+  average([](auto& s) -> auto& { return s.history.parted; });
+  average([](auto& s) -> auto& { return s.damage; });
+  average([](auto& s) -> auto& { return s.water; });
+  average([](auto& s) -> auto& { return s.usual; });
+  average([](auto& s) -> auto& { return s.rested; });
+  Eigen::Index heaviest = 0;
+  weights.maxCoeff(&heaviest);
+  m.mode = of[static_cast<std::size_t>(heaviest)]->mode;
+  return m;
 }
 
 double covered(const Model& model, int block, int face, double area) {
@@ -107,14 +120,7 @@ SpringMemory InterfaceMemory::at(const Model& model, int point) const {
       weights = w;
     }
   }
-  SpringMemory m;
-  int heaviest = 0;
-  for (int k = 0; k < 3; ++k) {
-    add(m, springs_[nearest[k]], weights[k]);
-    heaviest = weights[k] > weights[heaviest] ? k : heaviest;
-  }
-  m.mode = springs_[nearest[heaviest]].mode;
-  return m;
+  return mean_of({&springs_[nearest[0]], &springs_[nearest[1]], &springs_[nearest[2]]}, weights);
 }
 
 } // namespace cdem

@@ -3,6 +3,7 @@
 #include "tests/libcdem/boxes.hpp"
 #include "tests/libcdem/going_on.hpp"
 
+#include "libcdem/fracture/interface_memory.hpp"
 #include "libcdem/results/one_way_energies.hpp"
 #include "libgeom/assembly/builders.hpp"
 #include "libgeom/assembly/edit.hpp"
@@ -227,6 +228,39 @@ TEST_CASE("sliding blocks: a block that spins on its joint by more than a right 
   CHECK(box.moved(2) == Approx(height).margin(2e-5));
   CHECK(box.s.joints({}).at(0).parted == 0);
   CHECK(box.s.energy().balance_error() < 1e-3);
+}
+
+TEST_CASE("sliding blocks: what new springs take up lies within what the old ones have", "[sliding]") {
+  const auto model_of = [](double shift, double across) {
+    const cdem::Joint joint = pressed_joint();
+    cdem::ModelSpec spec;
+    spec.bodies = {body("floor", geom::grid({1.1, 1.3, 1}, {1, 1, 1}), rock(), joint),
+                   body("block", geom::grid({1, 1, 1}, {1, 1, 1}, {shift, across, 1}), rock(), joint)};
+    spec.pairs = {{"floor", "block", joint}};
+    return cdem::Simulation(spec, 1, nullptr);
+  };
+  const cdem::Simulation before = model_of(0.05, 0.05);
+  const cdem::Model& model = before.model();
+  cdem::State state = before.state();
+  const double pressure = 1e5 / 3, damage = 0.1 + 0.2; // Pa
+  state.rested.assign(state.rested.size(), 1);
+  state.bond_damage.assign(state.rested.size(), damage);
+  state.bond_slip.resize(state.rested.size());
+  for (std::size_t p = 0; p < state.usual_force.size(); ++p)
+    state.usual_force[p] = pressure * model.points[p].area;
+  REQUIRE(model.interfaces.size() == 1);
+  const cdem::InterfaceMemory memory(model, state, model.interfaces[0]);
+  int springs = 0;
+  for (int i = 0; i < 30; ++i) {
+    const cdem::Simulation after = model_of(0.05 + 0.017 * i, 0.05 + 0.013 * i);
+    for (std::size_t p = 0; p < after.model().points.size(); ++p, ++springs) {
+      const cdem::SpringMemory m = memory.at(after.model(), static_cast<int>(p));
+      CHECK(m.rested == 1);
+      CHECK(m.damage == damage);
+      CHECK(m.usual == Approx(pressure).epsilon(1e-14));
+    }
+  }
+  CHECK(springs > 100);
 }
 
 TEST_CASE("sliding blocks: a face that slides over the end of the other is left to contact once they overlap "
