@@ -422,20 +422,28 @@ void update_supports(ResolvedConditions& r, double time) {
         component(h.prescribed, axis) = factors[varying] * r.varying_holds[varying].velocity[axis];
 }
 
-void aim_supports(const State& state, ResolvedConditions& r, double left) {
+namespace {
+
+// To the target of a component; NaN without one. What rounding left of a way is none: a support that is there stands.
+double way_of(const Model& model, const State& state, const HeldNode& h, int axis) {
+  const double target = vec(h.target)[axis], way = target - vec(state.displacement[h.node])[axis];
+  return std::abs(way) <= 1e-15 * std::max(model.length, std::abs(target)) ? 0 : way;
+}
+
+} // namespace
+
+void aim_supports(const Model& model, const State& state, ResolvedConditions& r, double left) {
   for (HeldNode& h : r.held)
     for (int axis = 0; axis < 3; ++axis)
-      if (const double target = component(h.target, axis); !std::isnan(target))
-        component(h.prescribed, axis) = (target - vec(state.displacement[h.node])[axis]) / left;
+      if (const double way = way_of(model, state, h, axis); !std::isnan(way))
+        component(h.prescribed, axis) = way / left;
 }
 
 bool has_way_to_go(const Model& model, const State& state, const ResolvedConditions& r) {
-  for (const HeldNode& h : r.held) {
-    const geom::Vec3 way = vec(h.target) - vec(state.displacement[h.node]); // NaN without a target
+  for (const HeldNode& h : r.held)
     for (int axis = 0; axis < 3; ++axis)
-      if (std::abs(way[axis]) > 1e-12 * model.length)
+      if (std::abs(way_of(model, state, h, axis)) > 0)
         return true;
-  }
   return false;
 }
 

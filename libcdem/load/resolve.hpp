@@ -164,7 +164,7 @@ void update_supports(ResolvedConditions&, double time);
 
 // Gives the held components that have a target the velocity that brings them there in `left` (s, or steps of a
 // relaxation).
-void aim_supports(const State&, ResolvedConditions&, double left);
+void aim_supports(const Model&, const State&, ResolvedConditions&, double left);
 
 // Some held component stands further from its target than rounding leaves it.
 bool has_way_to_go(const Model&, const State&, const ResolvedConditions&);

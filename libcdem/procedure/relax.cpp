@@ -216,6 +216,7 @@ public:
     result.converged = converged_;
     result.verdict = converged_ ? Verdict::stable : failing_ ? Verdict::failing : Verdict::undecided;
     result.broken_while_drawn = broken_while_drawn_;
+    result.way_done = way_.done();
     stability_.describe(result);
     return result;
   }
@@ -236,7 +237,7 @@ public:
     if (changed || way_.acts()) {
       stop_supports(stage_.work.resolved);
       if (const double left = way_.left(); left != 0)
-        aim_supports(state_, stage_.work.resolved, left);
+        aim_supports(model_, state_, stage_.work.resolved, left);
     }
     stage_.breaking = options_.breaking;
   }
@@ -264,7 +265,7 @@ public:
     masses_.follow(model_, stage_.work.contact.loads);
     if (!way_.acts() || !way_.see_contacts(change_of_contacts2()))
       return;
-    aim_supports(state_, stage_.work.resolved, way_.left());
+    aim_supports(model_, state_, stage_.work.resolved, way_.left());
     stage_.breaking = false;
   }
   void update_loads() override { stage_.update_loads(nullptr); }

@@ -40,6 +40,7 @@ public:
   double left() const { // steps at this pace, below 0 while it takes back; 0: supports stand
     return way_ < 1 && pace_ != 0 ? (1 - way_) / pace_ : 0;
   }
+  double done() const { return way_; }        // part of the way
   bool drawn() const { return drawn_; }       // along, in the step to come
   std::vector<Node>& lead() { return lead_; } // r l, m per step (n_nodes); empty: nothing is moved
 

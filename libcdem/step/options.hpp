@@ -48,6 +48,7 @@ struct RelaxResult : StageResult {
   std::int64_t moving_block = 0;
   geom::Vec3 moving_place = geom::Vec3::Zero();
   std::int64_t broken_while_drawn = 0; // bonds, as supports were drawn along (procedure/support_way.hpp)
+  double way_done = 1;                 // part of the way of moved supports
 };
 
 // Masses raised where the time step demands it (integrate/mass_scaling.hpp): at most one of the two is given.

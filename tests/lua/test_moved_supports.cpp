@@ -33,3 +33,37 @@ for _, bond in ipairs(breaks) do assert(math.abs(bond.place[1] - 1) < 1e-6, "the
   INFO((warnings.empty() ? "" : warnings.front()));
   CHECK(warnings.size() <= 1);
 }
+
+TEST_CASE("a relaxation that ends while supports are on their way says how far they are", "[lua][relax]") {
+  const auto warnings = warnings_of(R"(
+local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
+local model = cdem.model{ bodies = { { shape = cdem.box{ size = {2, 0.2, 0.2} }, material = rock, zone_size = 0.1 } } }
+model:fix{ on = "x-" }
+model:fix{ on = "x+", axes = "x", displacement = {1e-3, 0, 0} }
+local first = model:relax{ max_steps = 300 }
+local moved = model:max("displacement.x") / 1e-3
+assert(first.way_done > 0 and first.way_done < 1)
+assert(math.abs(moved / first.way_done - 1) < 1e-6, moved .. " " .. first.way_done)
+assert(model:relax{}.way_done == 1)
+assert(math.abs(model:max("displacement.x") - 1e-3) < 1e-12)
+)");
+  REQUIRE(warnings.size() == 2);
+  CHECK(warnings[1].find("moved supports have gone") != std::string::npos);
+}
+
+TEST_CASE("a support that has arrived stands, however the runs after that are divided", "[lua][run]") {
+  const auto hash = [](const std::string& runs) {
+    return R"(
+local cdem = require "cdem"
+local rock = cdem.elastic{ youngs_modulus = 30e9, poissons_ratio = 0.2, density = 2500 }
+local model = cdem.model{ bodies = { { shape = cdem.box{ size = {1, 0.2, 0.2} }, material = rock, zone_size = 0.1 } } }
+model:fix{ on = "x-" }
+model:fix{ on = "x+", displacement = {1e-4, -3e-5, 7e-6} }
+model:run{ steps = 77 }
+)" + runs + "return model.state_hash\n";
+  };
+  CHECK(warnings_of("local function one() " + hash("model:run{ steps = 30 }") + "end\nlocal function two() " +
+                    hash("model:run{ steps = 11 } model:run{ steps = 19 }") + "end\nassert(one() == two())")
+            .empty());
+}

@@ -60,6 +60,9 @@ void tell_verdict(Session& session, const RelaxOptions& options, const RelaxResu
                  "; the script goes on, and result.verdict is \"failing\"");
   else if (!options.note.empty())
     session.message(found);
+  if (r.way_done < 1)
+    session.warn("relax: moved supports have gone " + three_digits(100 * r.way_done) +
+                 " % of their way; the next relax or run moves them the rest, a run within its own time");
   if (r.broken_while_drawn > 0)
     session.warn("relax: " + geom::counted(r.broken_while_drawn, "bond") +
                  " broke while supports went on though forces were out of balance, perhaps too early; move "
@@ -226,6 +229,8 @@ const Record<RelaxResult> relax_record{
      {number("residual"), &RelaxResult::residual},
      {integer("broken_tension").doc("bonds, in this stage"), &RelaxResult::broken_tension},
      {integer("broken_shear").doc("bonds, in this stage"), &RelaxResult::broken_shear},
+     {number("way_done").doc("part of the way that moved supports have gone, 1 where none moves"),
+      &RelaxResult::way_done},
      {number("wall_time", "s"), &RelaxResult::wall_time},
      {number("moving", "m").doc("what the fastest node moved in the last 200 steps that were looked at"),
       [](const RelaxResult& r) { return if_moving(r, r.moving); }},
