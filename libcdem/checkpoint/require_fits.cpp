@@ -55,6 +55,8 @@ void check_contacts(const Model& model, const State& state) {
                                        {"contacts.felt_force", c.felt_force}})
       if (!(value >= 0 && std::isfinite(value)))
         refuse_state(field, std::to_string(value) + " is out of range");
+    if (!(c.from_end > 0 && c.from_end <= 1))
+      refuse_state("contacts.from_end", std::to_string(c.from_end) + " is out of range");
     if (c.kind == Contact::tets) {
       require_below("contacts.source", c.source, model.tets.size());
       require_below("contacts.target", c.target, model.tets.size());

@@ -172,7 +172,9 @@ double contact_energy(const Model& model, const State& state, double lag) {
     then.shear += law.ks * (ago - along * now.normal);
     const double limit = friction_limit(law.kn * then.effective_penetration(), law.tan_friction);
     then.shear *= held_by_friction(then.shear.norm(), limit);
-    sum += energy(then, law);
+    const double near_end = force_near_end(now.from_end) - 1;
+    sum += energy(then, law) + near_end * law.kn * now.effective_penetration() * along +
+           along_face(now, law).dot(ago);
   }
   return sum;
 }

@@ -35,6 +35,7 @@ struct Contact {
   double usual_force = 0; // N, mean of its normal force over some ten oscillations
   double felt_force = 0;  // N, the same over two thirds of one
   double stiffness = 0;   // N/m, of its normal spring (as_stiff_as); 0: that of its law
+  double from_end = 1;    // x of a crossing near an end of its edges (contact_law.hpp); 1: none is near
   double area = 0;        // m2, for which it stands on a flat face (face_cover.hpp); 0: on another
 
   explicit Contact(Kind of = spring, int from = 0)

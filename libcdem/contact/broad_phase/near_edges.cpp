@@ -41,7 +41,7 @@ Bar bar_of(const Model& model, const State& state, const Skins& skins, const Con
 
 bool may_hold(const Bar& bar, const geom::Vec3& normal, double turns) {
   for (int i = 0; i < 2; ++i)
-    if (normal.dot(bar.into[i]) > (fan_slack + turns + bar.into_turns[i]) * bar.into[i].norm())
+    if (normal.dot(bar.into[i]) > (fan_slack_of_old + turns + bar.into_turns[i]) * bar.into[i].norm())
       return false;
   return true;
 }

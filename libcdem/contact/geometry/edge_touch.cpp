@@ -7,9 +7,8 @@ namespace cdem {
 namespace {
 
 // The fan of an edge's outward normals: those that have both its faces behind.
-bool in_fan(const std::array<geom::Vec3, 2>& into, const geom::Vec3& normal) {
-  return !(normal.dot(into[0]) > fan_slack * into[0].norm()) &&
-         !(normal.dot(into[1]) > fan_slack * into[1].norm());
+bool in_fan(const std::array<geom::Vec3, 2>& into, const geom::Vec3& normal, double slack) {
+  return !(normal.dot(into[0]) > slack * into[0].norm()) && !(normal.dot(into[1]) > slack * into[1].norm());
 }
 
 geom::Vec3 middle_of_fan(const std::array<geom::Vec3, 2>& into) {
@@ -291,7 +290,9 @@ std::array<geom::Vec3, 2> into_faces(const Model& model, const State& state, con
 }
 
 std::optional<EdgeTouch> touch_of(const Model& model, const State& state, const ContactEdge& e,
-                                  const ContactEdge& f, const NearestOfEdges& nearest) {
+                                  const ContactEdge& f, const NearestOfEdges& nearest,
+                                  const geom::Vec3* old_normal) {
+  const double slack = old_normal ? fan_slack_of_old : fan_slack;
   const geom::Vec3 a0 = place_of(model, state, e.nodes[0]), a1 = place_of(model, state, e.nodes[1]),
                    b0 = place_of(model, state, f.nodes[0]), b1 = place_of(model, state, f.nodes[1]);
   const geom::Vec3 across = (a1 - a0).cross(b1 - b0);
@@ -303,17 +304,18 @@ std::optional<EdgeTouch> touch_of(const Model& model, const State& state, const 
     return EdgeTouch{normal, nearest.stretch->depth, across.dot(normal) < 0 ? -1. : 1.};
   }
   EdgeTouch touch{across.normalized()};
-  if (!in_fan(into_f, touch.normal)) {
+  if (old_normal ? touch.normal.dot(*old_normal) < 0 : !in_fan(into_f, touch.normal, slack)) {
     touch.normal = -touch.normal;
     touch.sense = -1;
   }
-  if (!in_fan(into_f, touch.normal) || !in_fan(into_e, -touch.normal))
+  if (!in_fan(into_f, touch.normal, slack) || !in_fan(into_e, -touch.normal, slack))
     return std::nullopt;
   touch.depth = nearest.way.dot(touch.normal);
   if (touch.depth > 0 && !nearest.within_both()) {
     const double distance = nearest.way.norm();
     touch.normal = nearest.way / distance;
-    touch.depth = in_fan(into_f, touch.normal) && in_fan(into_e, -touch.normal) ? distance : -distance;
+    touch.depth =
+        in_fan(into_f, touch.normal, slack) && in_fan(into_e, -touch.normal, slack) ? distance : -distance;
   }
   return touch;
 }

@@ -18,6 +18,9 @@ inline constexpr double clear_of_faces = 0.05;
 // Sine of the angle by which a normal may be outside a fan: where faces lie flat on each other it is at the border, and
 // rounding would put it in and out from step to step.
 inline constexpr double fan_slack = 0.01;
+// The same of a contact that goes on: where an edge turns over a face, the contact at one outline opens while that at the other one
+// closes. Without this it would end as deep as it is.
+inline constexpr double fan_slack_of_old = 0.1;
 
 // How two nearly parallel edges press on each other where they reach into each other. They store an energy U, and the derivative
 // of U by their motion is a force F at one place, and a moment beside it.
@@ -51,9 +54,10 @@ struct EdgeTouch {
   double sense = 1; // of (first x second) . normal, 1 or -1
 };
 
-// None where no common normal lies in the fans of outward normals of both (the Gauss map).
+// None where no common normal lies in the fans of outward normals of both (the Gauss map). old_normal: of a contact that they had
+// before the step.
 std::optional<EdgeTouch> touch_of(const Model&, const State&, const ContactEdge& e, const ContactEdge& f,
-                                  const NearestOfEdges&);
+                                  const NearestOfEdges&, const geom::Vec3* old_normal = nullptr);
 
 // The way, m, from the first edge to the second leads into the first one's body, and back into the second one's.
 bool leads_into_both(const Model&, const State&, const ContactEdge& e, const ContactEdge& f,

@@ -27,8 +27,9 @@ EdgeLines::EdgeLines(const Model& model, const State& state, const SurfaceEdges&
       contacts_(std::partition_point(state.contacts.begin(), state.contacts.end(),
                                      [](const Contact& c) { return c.kind == Contact::spring; })) {}
 
-std::optional<EdgeTouch> EdgeLines::active(int e, int f, const NearestOfEdges& here) const {
-  auto touch = touch_of(model_, state_, edges_.all[e], edges_.all[f], here);
+std::optional<EdgeTouch> EdgeLines::active(int e, int f, const NearestOfEdges& here,
+                                           const Contact* old) const {
+  auto touch = touch_of(model_, state_, edges_.all[e], edges_.all[f], here, old ? &old->normal : nullptr);
   if (!touch || !(touch->depth > 0))
     return std::nullopt;
   const double distance = here.way.norm();

@@ -24,12 +24,14 @@ public:
   // Contact of two edges, by their numbers, e < f. None if they do not touch, if one ends at the nearest points and its
   // chain does not continue, or if a pair of the same crossing is nearer: a pair with one of the two edges, touching or
   // not, or a pair of two other edges that touch.
-  std::optional<EdgeTouch> active(int e, int f, const NearestOfEdges&) const;
+  std::optional<EdgeTouch> active(int e, int f, const NearestOfEdges&, const Contact* old = nullptr) const;
 
   // The contact that the two edges, or others which continue them, have just left behind, as if it were that of e and f: the one
   // that presses the most of those that these two take over. An edge that only meets an end, as at the corner of a face, is
   // another line: it would press aside.
   std::optional<Contact> left_behind(int e, int f, const geom::Vec3& normal) const;
+
+  const Contact* contact_of(int e, int f) const; // before the step
 
   // Whether the two edges, or others which continue them, had a contact before the step.
   bool carry_together(int e, int f) const;
@@ -51,8 +53,7 @@ public:
   bool cuts_off_end(int edge, double place, int by, double within) const;
 
 private:
-  const Contact* contact_of(int e, int f) const; // before the step
-  int edge_with(int id) const;                   // -1: there is none
+  int edge_with(int id) const; // -1: there is none
   NearestOfEdges nearest(int e, int f) const;
   // Calls does(next, way) for the edges that continue an edge over one of its ends, until it returns true; way: 1 or
   // -1, with or against their own direction. Returns whether it did.

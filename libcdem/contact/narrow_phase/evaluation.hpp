@@ -71,12 +71,18 @@ private:
     double area = 0; // m2, for which the contact should stand; 0: no face lies there
     double nearing = 0;
     bool slid_on = false; // a new contact came over an outline, not through the face
+    bool crosses = false; // no face lies there: two edges cross
+    double to_end =
+        std::numeric_limits<double>::infinity(); // m, to the nearest end of one of them where none goes on
+    geom::Vec3 off_end = geom::Vec3::Zero();     // unit: how that changes by the slip
   };
   // f: the face of the source; of: m2, without the faces.
   OnFace on_face(int f, int g, const geom::Vec3& place, double of, const Contact* old, bool of_spring);
   // On which face a semi-spring presses whose nearest place on the surface of a block is `found`: on a flat one that its own face
   // lies on, however near the next face is; on none where a face beside its own lies on the found one, and stands for it.
   std::optional<Nearest> pressed_by(int source, const geom::Vec3& spring, const Nearest& found);
+  // Of a crossing; sets end_moment.
+  OnFace near_end(int source, int target, const NearestOfEdges&, const EdgeTouch&, ContactMotion&) const;
   // Sets stiffness and area of a contact. old: the same one before the step, null where there was none; of: m2, without
   // another face; on: m2, for which it should stand on a flat face, 0: on another, or as it does.
   void set_stiffness(Contact&, const Contact* old, const ContactLaw&, double of, double on) const;
@@ -109,6 +115,8 @@ private:
   // Gives a contact that closes again what is left of its means.
   void go_on_if_opened(Contact&) const;
   void widen(Contact&, const Contact& old, const ContactMotion&, const OnFace&) const;
+  static void pass_end(Contact&, const Contact* old, const ContactLaw& usual, const ContactMotion&,
+                       const OnFace&);
   // For restitution, of a contact before it advances. velocity: m/s, of its source past its target.
   void set_approach(const Contact&, const ContactLaw&, const BlockPair&, const ContactArms&,
                     const geom::Vec3& velocity, const ContactTriangle& from, const ContactTriangle& to,

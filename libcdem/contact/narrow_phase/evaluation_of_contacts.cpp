@@ -106,10 +106,12 @@ void Evaluation::go_on_if_opened(Contact& c) const {
 // The area of a flat face follows the slip: it grows by the mean widening before and after the step. So the force along the slip,
 // at most the normal force, does as much work as the area stores less.
 void Evaluation::widen(Contact& c, const Contact& old, const ContactMotion& motion, const OnFace& on) const {
-  if (on.nearing == 0 && old.widening.isZero(0))
+  const bool widened = old.from_end == 1 && !old.widening.isZero(0);
+  if (on.nearing == 0 && !widened)
     return;
   const geom::Vec3 slid = motion.slid - motion.slid.dot(motion.normal) * motion.normal;
-  c.widening = turned_with(old.widening, old.normal, motion.normal);
+  if (widened)
+    c.widening = turned_with(old.widening, old.normal, motion.normal);
   const double half_way = old.area + 0.5 * c.widening.dot(slid), square = slid.squaredNorm();
   if (on.nearing > 0)
     c.widening = (on.area > 0 && square > 0 ? on.nearing * (on.area - half_way) / square : 0) * slid;
@@ -120,6 +122,19 @@ void Evaluation::widen(Contact& c, const Contact& old, const ContactMotion& moti
   c.stiffness *= c.area / old.area;
 }
 
+// A crossing near an end of one of its edges: its energy follows from where it is and how deep, so it needs no history.
+void Evaluation::pass_end(Contact& c, const Contact* old, const ContactLaw& usual,
+                          const ContactMotion& motion, const OnFace& on) {
+  constexpr double least = 0.03; // nothing is left there
+  const double before = old ? next_reference_penetration(*old, motion) : first_reference_penetration(motion),
+               reach = reach_of_end * (motion.depth - before), whole = part_near_end(old ? old->from_end : 1);
+  c.from_end = on.to_end < reach ? std::max(least, on.to_end / reach) : 1;
+  c.stiffness = part_near_end(c.from_end) / whole * (c.stiffness > 0 ? c.stiffness : usual.kn);
+  c.widening = geom::Vec3::Zero();
+  if (c.from_end < 1 && c.from_end > least)
+    c.widening = slope_near_end(c.from_end) / reach * on.off_end;
+}
+
 void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, const ContactArms& arms,
                         const ContactLaw& usual, const ContactTriangle& from, const ContactTriangle& to,
                         const OnFace& on) {
@@ -128,8 +143,11 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   motion.step = work_.step;
   motion.in_relaxation = !work_.damps;
   ContactForce force;
-  const bool own = old && key(*old) == key(c), on_face = own && old->area > 0 && !motion.along_stretch;
-  if (on_face)
+  const bool own = old && key(*old) == key(c),
+             on_face = own && (old->area > 0 || on.crosses) && !motion.along_stretch;
+  if (on.crosses && (own || !old))
+    pass_end(c, old, usual, motion, on);
+  else if (on_face)
     widen(c, *old, motion, on);
   const ContactLaw law = as_stiff_as(c, usual);
   const auto set_part_of_step = [&](double pressed) {
@@ -185,14 +203,17 @@ void Evaluation::finish(Contact& c, const Contact* old, ContactMotion& motion, c
   force.source_block = from.block;
   force.target_block = to.block;
   force.normal = part_borne(motion) * normal_force(c, law) * c.normal;
-  force.moment = motion.lever * force.normal;
-  force.stiffness = law.kn * (1 + part_damped(c, law)) + law.ks;
-  force.shear = c.shear + along_face(c, law);
+  const geom::Vec3 along = along_face(c, law);
+  force.moment = motion.lever * force.normal + along.norm() * motion.end_moment;
+  force.stiffness = (law.kn * (1 + part_damped(c, law)) + std::max(law.ks, most_stiff_near_end(c) * law.kn)) /
+                    part_near_end(c.from_end);
+  force.shear = c.shear + along;
   out_.contacts.push_back(c);
   out_.forces.push_back(force);
   // Not what was found so deep.
   ContactSums& sums = out_.sums;
-  const double pressed = c.effective_penetration(), part = pressed / depth_limit(work_.sizes, from, to);
+  const double pressed = c.effective_penetration() * force_near_end(c.from_end),
+               part = pressed / depth_limit(work_.sizes, from, to);
   sums.depth = std::max(sums.depth, pressed);
   sums.depth_over_height = std::max(sums.depth_over_height, pressed / std::min(from.height, to.height));
   if (part > sums.deepest) {

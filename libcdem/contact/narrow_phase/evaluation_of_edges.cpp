@@ -174,11 +174,14 @@ void Evaluation::edges(ContactRow& row, ContactCandidate* candidates) {
           rounded_down(from_here + std::min(same_rules_until(pair), std::max(by_angle, last_end)));
       candidate.springs = last_end > by_angle ? 1 : 0;
     }
+    const Contact* const old = touched ? lines_.contact_of(row.source, target) : nullptr;
+    if (old)
+      candidate.recheck_distance = rounded_down(from_here);
     recheck_distance = std::min(recheck_distance, candidate.recheck_distance);
     row.hindered = row.hindered || candidate.springs != 0;
     if (!may_begin && !(touched && lines_.touched_around(row.source, target)))
       continue;
-    if (const auto touch = lines_.active(row.source, target, nearest))
+    if (const auto touch = lines_.active(row.source, target, nearest, old))
       add_contact(row.source, target, nearest, *touch, may_begin);
   }
   row.recheck_distance = recheck_distance;
@@ -194,6 +197,39 @@ bool Evaluation::slid_over(const ContactEdge& e, const ContactEdge& f, const Nea
       return are_flat(one, other) && depth > 1.5 * std::abs(slid.dot(normal)) && !is_step(one, other, depth);
     });
   });
+}
+
+// With l along the one edge and r from the crossing to an end of the other one, that end is y = (r x l) . n from it. The normal n turns with
+// both edges, and where they cross moves with it, by their distance times that turn: hence the moment. Its arm may be long beside the
+// tetrahedra of bodies that deform, so they do without.
+Evaluation::OnFace Evaluation::near_end(int source, int target, const NearestOfEdges& nearest,
+                                        const EdgeTouch& touch, ContactMotion& motion) const {
+  OnFace on;
+  on.crosses = true;
+  const auto along = [&](int edge) -> geom::Vec3 {
+    const auto [begin, end] = work_.edges.all[edge].nodes;
+    return place_of(model_, state_, end) - place_of(model_, state_, begin);
+  };
+  const geom::Vec3 a = along(source), b = along(target);
+  const auto look_at = [&](int edge, double from, double to, const geom::Vec3& own, const geom::Vec3& other,
+                           double of_source) {
+    if (!lines_.at_last_end(edge, to))
+      return;
+    const geom::Vec3 r = (to - from) * own, l = other.normalized(), off = l.cross(touch.normal);
+    const double distance = r.dot(off), side = std::copysign(1.0, distance);
+    if (std::abs(distance) >= on.to_end)
+      return;
+    on.to_end = std::abs(distance);
+    on.off_end = of_source * side * off;
+    const geom::Vec3 turns = of_source * l.cross(nearest.way);
+    motion.end_moment = side * (of_source * r.dot(l) * touch.normal -
+                                touch.sense / a.cross(b).norm() * a.cross(b.cross(turns)));
+  };
+  for (const double end : {0., 1.}) {
+    look_at(source, nearest.at.s, end, a, b, 1);
+    look_at(target, nearest.at.t, end, b, a, -1);
+  }
+  return on;
 }
 
 void Evaluation::add_contact(int source, int target, const NearestOfEdges& nearest, const EdgeTouch& touch,
@@ -245,7 +281,8 @@ void Evaluation::add_contact(int source, int target, const NearestOfEdges& neare
           }
           return on;
         }
-    return OnFace{};
+    return both_rigid(model_, from.block, to.block) ? near_end(source, target, nearest, touch, motion)
+                                                    : OnFace{};
   };
   OnFace on;
   if (const auto& stretch = nearest.stretch) {

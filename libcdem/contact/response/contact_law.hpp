@@ -86,16 +86,17 @@ struct ContactMotion {
   double turned = 0;                      // rad, of the two faces about the normal
   double spin_past = 0;                   // rad/s, of the source past the target about the normal
   double lever = 0;                       // m, of a moment about the normal, over the normal force beside it
-  bool along_stretch = false;             // part of a stretch that carries, which may grow in a jump
-  double step = 0;                        // s, in which that happened
-  double approach = 0;                    // s of restitution: 1 the bodies approach, -1 they separate
-  double acceleration = 0;                // m/s2, a of restitution
-  double held_at_most = 0;                // part of the damping force that may act, part_held
-  double omega_step = 0;                  // omega times the step
-  double part_of_step = 1;                // t above
-  bool shares_friction = false;           // one of its two bodies deforms, and neither is broken
-  double felt_over_usual = 1;             // these two means, summed over the contacts between its bodies
-  bool in_relaxation = false;             // its steps are no times, and it finds the contact at rest
+  geom::Vec3 end_moment = geom::Vec3::Zero(); // m, the moment beside a force off an end, over that force
+  bool along_stretch = false;                 // part of a stretch that carries, which may grow in a jump
+  double step = 0;                            // s, in which that happened
+  double approach = 0;                        // s of restitution: 1 the bodies approach, -1 they separate
+  double acceleration = 0;                    // m/s2, a of restitution
+  double held_at_most = 0;                    // part of the damping force that may act, part_held
+  double omega_step = 0;                      // omega times the step
+  double part_of_step = 1;                    // t above
+  bool shares_friction = false;               // one of its two bodies deforms, and neither is broken
+  double felt_over_usual = 1;                 // these two means, summed over the contacts between its bodies
+  bool in_relaxation = false;                 // its steps are no times, and it finds the contact at rest
 
   double opened() const { return slid.dot(normal) + lever * step * spin_past; } // m
 };
@@ -209,16 +210,33 @@ inline double advance_damping(Contact& c, const ContactLaw& law, const ContactMo
          stored - stored_by_damping(c, pressed_by_approach(c, law, part));
 }
 
-// N, of the contact on its source.
-inline double normal_force(const Contact& c, const ContactLaw& law) {
-  return law.kn * c.effective_penetration() + c.damping;
+// Near an end of one of its edges a crossing gives back what it stores before the edges slide off each other. At a distance y from the
+// end, with x = y / (c p) < 1, it stores U = k p^2 w / 2. The forces are the derivatives of U: k p x^3 along the normal, and
+// k p^2 w' / (2 c p), at most 0.6 k p, off the end. From y = p on the corner at the end may stand in the other body and press itself.
+constexpr double reach_of_end = 1.25;   // c
+inline double part_near_end(double x) { // w
+  return x * x * (3 - 2 * x);
+}
+inline double force_near_end(double x) { // x^3 / w
+  return x / (3 - 2 * x);
+}
+inline double slope_near_end(double x) { // w' / w
+  return 6 * (1 - x) / (x * (3 - 2 * x));
+}
+// Largest second derivative of U by y, over k.
+inline double most_stiff_near_end(const Contact& c) {
+  return c.from_end < 1 ? 3 / (reach_of_end * reach_of_end) : 0;
 }
 
-// N, on the source: its spring stores less as its area shrinks by slip.
+// N, of the contact on its source.
+inline double normal_force(const Contact& c, const ContactLaw& law) {
+  return law.kn * c.effective_penetration() * force_near_end(c.from_end) + c.damping;
+}
+
+// N, on the source: its spring stores less as its area shrinks by slip, or as an end comes nearer.
 inline geom::Vec3 along_face(const Contact& c, const ContactLaw& law) {
-  const double pressed = c.effective_penetration();
-  return c.area > 0 ? geom::Vec3(-0.5 * law.kn * pressed * pressed / c.area * c.widening)
-                    : geom::Vec3::Zero();
+  const double pressed = c.effective_penetration(), of = c.from_end < 1 ? 1 : c.area;
+  return of > 0 ? geom::Vec3(-0.5 * law.kn * pressed * pressed / of * c.widening) : geom::Vec3::Zero();
 }
 
 // t, of a contact that has moved that far along its normal in the last step, m.
