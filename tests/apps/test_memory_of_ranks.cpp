@@ -72,7 +72,7 @@ double memory_between_steps(const std::string& ranks) {
   while (!steps("run: step ") && waited() < std::chrono::seconds(120))
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   double least = std::numeric_limits<double>::infinity();
-  for (int look = 0; look < 150; ++look) {
+  for (int look = 0; look < 100; ++look) {
     double most = 0;
     for (const Process& process : processes_in(folder.path()))
       most = std::max(most, process.anonymous);

@@ -214,7 +214,7 @@ for _ = 1, 3 + math.floor(random(0, 2.999)) do
   if what == "relax" and with("relax", 1) then
     local moved = with_of_seed("moved", 3)
     if moved then try("moved", function() model:fix{ on = "floor", displacement = { 1e-4, 0, -5e-5 } } end) end
-    try("relax", function() solve{ residual = 1e-3, max_steps = moved and 600 or 150, breaking = breaking } end)
+    try("relax", function() solve{ residual = 1e-3, max_steps = moved and 300 or 150, breaking = breaking } end)
     on_the_way = moved
   elseif what == "make_rigid" and with("make_rigid", 1) then
     try(what, function() model:make_rigid{ on = on } end)
