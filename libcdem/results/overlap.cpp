@@ -1,10 +1,13 @@
 #include "libcdem/results/overlap.hpp"
 
+#include "libcdem/bond/spring_forces.hpp"
+#include "libcdem/model/build/contact_surface.hpp"
 #include "libcdem/model/names.hpp"
 #include "libcdem/state/places.hpp"
 #include "libgeom/polyhedron/common_part.hpp"
 #include "libgeom/query/box_pairs.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace cdem {
@@ -96,6 +99,43 @@ Overlap overlap(const Model& model, const State& state) {
     result.place = sum.centroid / sum.volume;
   }
   return result;
+}
+
+FreeOverlap free_overlap(const Model& model, const State& state, double over) {
+  FreeOverlap most{over};
+  if (model.surface.empty())
+    return most;
+  std::vector<std::pair<int, int>> held;
+  for (const Contact& c : state.contacts)
+    if (c.kind != Contact::tets) {
+      const auto [source, target] = triangles_of(c);
+      const std::vector<ContactTriangle>& triangles = model.surface.triangles;
+      held.push_back(std::minmax({triangles[source].block, triangles[target].block}));
+    }
+  for (const Interface& interface : model.interfaces)
+    if (!released(state, interface))
+      held.push_back(std::minmax({interface.block_a, interface.block_b}));
+  std::sort(held.begin(), held.end());
+  std::vector<ConvexPart> parts;
+  std::vector<geom::Box> boxes;
+  for (int b = 0; b < static_cast<int>(model.blocks.size()); ++b)
+    if (model.blocks[b].convex()) {
+      parts.push_back({b, -1, block_now(model, state, model.blocks[b]), {}});
+      boxes.push_back(geom::bounding_box(parts.back().shape));
+    }
+  for (const auto& [i, j] : geom::touching_pairs(boxes)) {
+    const int a = parts[i].block, b = parts[j].block;
+    const geom::Box both{boxes[i].min.cwiseMax(boxes[j].min), boxes[i].max.cwiseMin(boxes[j].max)};
+    const double least = std::min(model.blocks[a].mass.volume, model.blocks[b].mass.volume);
+    if ((both.max - both.min).prod() <= most.part * least || !contact_joint(model, a, b) ||
+        std::binary_search(held.begin(), held.end(), std::pair<int, int>(std::minmax({a, b}))))
+      continue;
+    const double volume =
+        geom::common_part(geom::face_planes(parts[i].shape), geom::face_planes(parts[j].shape), both).volume;
+    if (volume > most.part * least)
+      most = {volume / least, a, b};
+  }
+  return most;
 }
 
 } // namespace cdem

@@ -20,4 +20,13 @@ struct Overlap {
 
 Overlap overlap(const Model&, const State&);
 
+// Two convex blocks that may touch, and overlap though nothing presses them apart: no contact and no joint acts between them.
+struct FreeOverlap {
+  double part = 0;    // of the volume of the smaller one
+  int a = -1, b = -1; // blocks; -1: there are none
+};
+
+// The largest, of those with a larger part than this.
+FreeOverlap free_overlap(const Model&, const State&, double over);
+
 } // namespace cdem

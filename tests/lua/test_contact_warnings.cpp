@@ -145,6 +145,78 @@ m:run{ duration = 0.1 }
   CHECK(told("rigid", "", 0.25).empty());
 }
 
+namespace {
+
+// Two irregular tetrahedra of 0.16 m meet at 4 m/s; "part": the largest part of a volume in which they overlap, %.
+Script meeting_tetrahedra(const std::string& element, const std::string& stiffness) {
+  return Script("local cdem = require 'cdem'\nlocal element, k = '" + element + "', " + stiffness + R"(
+local stone = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 }
+local law = cdem.coulomb{ friction_angle = 35, restitution = 0.3, normal_stiffness = k, shear_stiffness = k }
+local chance = 30 * 7919 + 13
+local function random()
+  chance = (chance * 1103515245 + 12345) % 2147483648
+  return chance / 2147483648
+end
+for _ = 1, 5 do random() end
+local function turned(u, v, angle)
+  return u * math.cos(angle) - v * math.sin(angle), u * math.sin(angle) + v * math.cos(angle)
+end
+local function tetrahedron(x0, y0, z0)
+  local a, b, c = random() * 6.28, random() * 6.28, random() * 6.28
+  local points = {}
+  for i, w in ipairs{ {1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1} } do
+    local x, y, z = w[1] * (0.7 + 0.6 * random()), w[2] * (0.7 + 0.6 * random()), w[3] * (0.7 + 0.6 * random())
+    x, y = turned(x, y, a)
+    y, z = turned(y, z, b)
+    x, z = turned(x, z, c)
+    points[i] = { x0 + 0.12 * x, y0 + 0.12 * y, z0 + 0.12 * z }
+  end
+  return cdem.convex_hull{ points = points }
+end
+local lower = tetrahedron(0, 0, 0)
+local upper = tetrahedron(0.1 * (random() - 0.5), 0.1 * (random() - 0.5), 0.5)
+local m = cdem.model{ bodies = { { name = "lower", shape = lower, material = stone, element = element },
+                                 { name = "upper", shape = upper, material = stone, element = element } },
+                      contacts = { default = law } }
+m:initial_velocity{ on = "upper", velocity = {0, 0, -4} }
+local part = 0
+for _ = 1, 30 do
+  m:run{ duration = 0.00625, safety = 0.2 }
+  part = math.max(part, m:overlap().volume / math.min(lower:volume(), upper:volume()))
+end
+print("part " .. 100 * part)
+)");
+}
+
+double number_after(Script& script, const std::string& word) {
+  const std::vector<std::string> lines = those_with(script.listener->lines, word);
+  REQUIRE(lines.size() == 1);
+  return std::stod(lines[0].substr(lines[0].find(word) + word.size()));
+}
+
+} // namespace
+
+TEST_CASE("bodies that lie in each other without a contact are told of, and how far", "[lua][contact]") {
+  const auto element = GENERATE(as<std::string>{}, "rigid", "finite_volume");
+  CAPTURE(element);
+  Script soft = meeting_tetrahedra(element, "1e8");
+  soft.run();
+  const std::vector<std::string> told = those_with(soft.listener->lines, "without a contact between them");
+  REQUIRE(!told.empty());
+  const std::string words = "they overlap by ";
+  const auto told_part = [&](const std::string& line) {
+    return std::stod(line.substr(line.find(words) + words.size()));
+  };
+  const double most = number_after(soft, "part ");
+  CHECK(told_part(told.front()) > 1);
+  CHECK(told_part(told.back()) < 1.006 * most);
+  CHECK(told_part(told.back()) > most / 1.6);
+  Script stiff = meeting_tetrahedra(element, "1e10");
+  stiff.run();
+  CHECK(number_after(stiff, "part ") < 0.1);
+  CHECK(those_with(stiff.listener->lines, "without a contact between them").empty());
+}
+
 TEST_CASE("a block that is pulled slowly by some elastic deflections of its joint is not told of",
           "[lua][contact]") {
   const std::string shape = GENERATE(as<std::string>{}, "cdem.box{ size = {1, 1, 0.5} }",

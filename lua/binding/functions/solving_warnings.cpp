@@ -2,9 +2,11 @@
 
 #include "libcdem/joint/bond_mode.hpp"
 #include "libcdem/memory_needed.hpp"
+#include "libcdem/model/names.hpp"
 #include "libcdem/ranks/ranks.hpp"
 #include "libcdem/results/deformation.hpp"
 #include "libcdem/results/one_way_energies.hpp"
+#include "libcdem/results/overlap.hpp"
 #include "libcdem/results/process_zone.hpp"
 #include "libcdem/state/ledger.hpp"
 #include "libcdem/step/errors.hpp"
@@ -191,11 +193,31 @@ void warn_of_sliding(Session& session, ModelObject& model, const Stage& stage) {
   }
 }
 
+// Contacts that end deep leave bodies within each other with nothing between them.
+void warn_of_free_overlap(Session& session, ModelObject& model, const Stage& stage) {
+  constexpr double least = 0.01;              // of a block's volume
+  constexpr std::int64_t steps_between = 500; // looks cost as much as some steps
+  if (model.simulation.steps() < model.looked_for_overlap + steps_between)
+    return;
+  model.looked_for_overlap = model.simulation.steps();
+  const cdem::Model& of = model.simulation.model();
+  const FreeOverlap found =
+      free_overlap(of, model.simulation.state(), std::max(least, tell_again * model.told_overlap));
+  if (found.a < 0)
+    return;
+  model.told_overlap = found.part;
+  session.warn(of_stage(stage) + block_name(of, found.a) + " and " + block_name(of, found.b) +
+               ": they overlap by " + three_digits(100 * found.part) +
+               " % of the smaller one without a contact between them: they have passed into each other; give "
+               "the contact a larger normal_stiffness");
+}
+
 } // namespace
 
 void warn_after_stage(Session& session, ModelObject& model, const Stage& stage) {
   warn_of_large_deformation(session, model, stage);
   warn_of_sliding(session, model, stage);
+  warn_of_free_overlap(session, model, stage);
   model.notes->at_end.clear();
   note_dry_flows(model);
   for (const auto& [a, b] : model.simulation.unmet())

@@ -32,8 +32,10 @@ struct ModelObject final : Object {
   mutable struct {
     Columns columns;
     std::string text;
-  } written;            // of the history, as its file stands
-  double told_open = 0; // energy balance that the user was warned of
+  } written;               // of the history, as its file stands
+  double told_open = 0;    // energy balance that the user was warned of
+  double told_overlap = 0; // part of a block that another one without a contact to it lies in, likewise
+  std::int64_t looked_for_overlap = 0; // step
   std::string told_slivers;
   int failing_since =
       0; // stage whose relaxation found that the model runs away; 0: none, or it has come to rest since
