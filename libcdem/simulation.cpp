@@ -6,12 +6,30 @@
 #include "libcdem/procedure/relax.hpp"
 #include "libcdem/procedure/run.hpp"
 #include "libcdem/procedure/settle.hpp"
+#include "libcdem/ranks/ranks.hpp"
 #include "libcdem/simulation_checks.hpp"
 #include "libcdem/simulation_impl.hpp"
 
 #include <algorithm>
 
 namespace cdem {
+
+namespace {
+
+// Ranks with different models would wait for each other without end.
+void require_same_on_all_ranks(std::uint64_t model) {
+  if (ranks().alone())
+    return;
+  const std::vector<std::string> built = ranks().gather(std::to_string(model));
+  for (std::size_t rank = 1; rank < built.size(); ++rank)
+    if (built[rank] != built[0])
+      throw geom::InputError(
+          "rank " + std::to_string(rank) +
+          " has built another model than rank 0; a script must do the same on all ranks: "
+          "look for what it takes from the clock, from addresses or from files that change");
+}
+
+} // namespace
 
 Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Observer> observer)
     : impl_(std::make_unique<Impl>()) {
@@ -21,6 +39,7 @@ Simulation::Simulation(const ModelSpec& spec, int threads, std::shared_ptr<Obser
   impl_->observer = observer ? std::move(observer) : std::make_shared<Observer>();
   impl_->model = first_model(spec);
   impl_->built = hash(impl_->model);
+  require_same_on_all_ranks(impl_->built);
   impl_->kept = initial_state(impl_->model);
   impl_->last_good = impl_->whole();
   impl_->log.unmet = pairs_without_interface(spec, impl_->model);

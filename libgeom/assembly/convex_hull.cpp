@@ -45,6 +45,8 @@ struct Hull {
   std::vector<std::array<int, 3>> beyond; // triangle across the edge from corner k to k + 1
 };
 
+// CGAL's order follows from addresses, which differ between two processes. Here points stand in the order in which they are
+// given, and triangles in that of their corners, of which the first comes first.
 Hull triangulated(const std::vector<Vec3>& points) {
   std::vector<Kernel::Point_3> input;
   input.reserve(points.size());
@@ -52,21 +54,31 @@ Hull triangulated(const std::vector<Vec3>& points) {
     input.emplace_back(x.x(), x.y(), x.z());
   HullMesh mesh;
   CGAL::convex_hull_3(input.begin(), input.end(), mesh);
+  std::map<Kernel::Point_3, std::size_t> given; // the first of equal points
+  for (std::size_t i = 0; i < input.size(); ++i)
+    given.emplace(input[i], i);
+  std::map<std::size_t, HullMesh::Vertex_index> in_order;
+  for (const auto v : mesh.vertices())
+    in_order.emplace(given.at(mesh.point(v)), v);
   Hull hull;
-  std::map<std::array<int, 2>, int> owner; // directed edge -> triangle
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    hull.points.emplace_back(p.x(), p.y(), p.z());
+  std::vector<int> number(mesh.number_of_vertices()); // in the hull, by number in the mesh
+  for (const auto& [i, v] : in_order) {
+    number[v] = static_cast<int>(hull.points.size());
+    hull.points.push_back(points[i]);
   }
   for (const auto f : mesh.faces()) {
     Triangle t;
     int k = 0;
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
-      t[k++] = static_cast<int>(static_cast<std::size_t>(v));
-    for (k = 0; k < 3; ++k)
-      owner[{t[k], t[(k + 1) % 3]}] = static_cast<int>(hull.triangles.size());
+      t[k++] = number[v];
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
     hull.triangles.push_back(t);
   }
+  std::sort(hull.triangles.begin(), hull.triangles.end());
+  std::map<std::array<int, 2>, int> owner; // directed edge -> triangle
+  for (std::size_t t = 0; t < hull.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      owner[{hull.triangles[t][k], hull.triangles[t][(k + 1) % 3]}] = static_cast<int>(t);
   for (const Triangle& t : hull.triangles)
     hull.beyond.push_back({owner.at({t[1], t[0]}), owner.at({t[2], t[1]}), owner.at({t[0], t[2]})});
   return hull;
@@ -139,6 +151,9 @@ Polyhedron polygons(const Hull& hull, const std::vector<int>& region) {
     if (face.loop.size() >= 3)
       p.faces.push_back(std::move(face));
   }
+  // Regions follow from triangles, and several triangulations of one flat face may be the hull.
+  std::sort(p.faces.begin(), p.faces.end(),
+            [](const PolyhedronFace& a, const PolyhedronFace& b) { return a.loop < b.loop; });
   return p;
 }
 

@@ -126,6 +126,19 @@ TEST_CASE("ranks: an error on one rank alone, in a step, ends all with its messa
       2, "youngs_modulus = -1", "2");
 }
 
+TEST_CASE("ranks: models that are not the same on all of them end all with one message") {
+  if (no_mpirun())
+    return;
+  PlateFolder place(std::string(on_rank_0) + R"(
+cdem.model{ bodies = { { shape = cdem.box_mesh{ size = {on_rank_0 and 1 or 2, 1, 1}, divisions = {2, 2, 2} },
+  material = cdem.elastic{ youngs_modulus = 1e9, poissons_ratio = 0.2, density = 2500 } } } })");
+  const Outcome outcome = place.cdem({"run", "plate/case.lua", "--output", "out", "--ranks", "2"});
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.exit_code == 2);
+  CHECK(lines_of(outcome.err).size() == 1);
+  CHECK_THAT(outcome.err, Contains("rank 1 has built another model than rank 0"));
+}
+
 TEST_CASE("ranks: a callback that looks at the model on one rank alone ends all with one message") {
   if (no_mpirun())
     return;

@@ -3,6 +3,7 @@
 #include "tests/libgeom/random_shapes.hpp"
 
 #include <catch2/catch.hpp>
+#include <memory>
 
 using namespace geom;
 using Catch::Matchers::Contains;
@@ -51,6 +52,30 @@ TEST_CASE("the hull of both parts of a cut is the block again") {
       if (part)
         points.insert(points.end(), part->shape.vertices.begin(), part->shape.vertices.end());
     CHECK(mass_properties(convex_hull(points)).volume == Approx(mass_properties(p).volume).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the hull of points is the same wherever memory lies") {
+  Draws draws{35, 1};
+  std::vector<Vec3> points;
+  const Mat3 turned = Eigen::AngleAxisd(1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (int i = 0; i < 12; ++i) // a prism, with the points of its faces in one plane to rounding
+    points.push_back(turned * Vec3(std::cos(i * M_PI / 6), std::sin(i * M_PI / 6), i % 2));
+  const Polyhedron first = convex_hull(points);
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    std::vector<std::unique_ptr<char[]>> blocks; // leave holes for the next hull
+    for (int i = 0; i < 200; ++i)
+      blocks.push_back(std::make_unique<char[]>(16 + static_cast<std::size_t>(draws.uniform(0, 200))));
+    while (blocks.size() > 20) {
+      std::swap(blocks[static_cast<std::size_t>(draws.uniform(0, static_cast<double>(blocks.size())))],
+                blocks.back());
+      blocks.pop_back();
+    }
+    const Polyhedron again = convex_hull(points);
+    REQUIRE(again.vertices == first.vertices);
+    REQUIRE(again.faces.size() == first.faces.size());
+    for (std::size_t f = 0; f < first.faces.size(); ++f)
+      REQUIRE(again.faces[f].loop == first.faces[f].loop);
   }
 }
 
