@@ -64,12 +64,12 @@ double memory_between_steps(const std::string& ranks) {
   auto running = std::async(std::launch::async, [&] {
     return run_cdem({"run", "case.lua", "--output", "out", "--threads", "1", "--ranks", ranks}, start);
   });
-  const auto steps = [&](const char* text) {
+  const auto log_has = [&](const char* text) {
     return read_file(folder / "out/cdem.log").find(text) != std::string::npos;
   };
   const auto begun = std::chrono::steady_clock::now();
   const auto waited = [&] { return std::chrono::steady_clock::now() - begun; };
-  while (!steps("run: step ") && waited() < std::chrono::seconds(120))
+  while (!log_has("run: step ") && waited() < std::chrono::seconds(120))
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   double least = std::numeric_limits<double>::infinity();
   for (int look = 0; look < 100; ++look) {
