@@ -19,6 +19,8 @@ struct NodeSums {
   double damping = 0;    // J, this step
   double radiated = 0;   // J, this step, by dashpots
   double fictitious = 0; // J, this step, by leading nodes with supports
+  // N2, as the first and the third, weighted by how fast nodes move with supports (procedure/support_way.hpp).
+  double led_residual2 = 0, led_reaction2 = 0;
 };
 
 // What acts on nodes beside the stress of elements.

@@ -439,12 +439,16 @@ void aim_supports(const Model& model, const State& state, ResolvedConditions& r,
         component(h.prescribed, axis) = way / left;
 }
 
-bool has_way_to_go(const Model& model, const State& state, const ResolvedConditions& r) {
-  for (const HeldNode& h : r.held)
+double longest_way(const Model& model, const State& state, const ResolvedConditions& r) {
+  double longest2 = 0;
+  for (const HeldNode& h : r.held) {
+    double way2 = 0;
     for (int axis = 0; axis < 3; ++axis)
-      if (std::abs(way_of(model, state, h, axis)) > 0)
-        return true;
-  return false;
+      if (const double way = way_of(model, state, h, axis); !std::isnan(way))
+        way2 += way * way;
+    longest2 = std::max(longest2, way2);
+  }
+  return std::sqrt(longest2);
 }
 
 void update_external(ResolvedConditions& r, double time, const std::vector<Node>* velocity) {

@@ -166,7 +166,7 @@ void update_supports(ResolvedConditions&, double time);
 // relaxation).
 void aim_supports(const Model&, const State&, ResolvedConditions&, double left);
 
-// Some held component stands further from its target than rounding leaves it.
-bool has_way_to_go(const Model&, const State&, const ResolvedConditions&);
+// m, of a held node to its target; 0: all stand there, but for rounding.
+double longest_way(const Model&, const State&, const ResolvedConditions&);
 
 } // namespace cdem

@@ -183,8 +183,9 @@ public:
     stage_.breaking = options.breaking;
     update_external(resolved, state_.time);
     stage_.carried = {&previous_force_};
-    if (context.from ? context.from->carried.size() > 1 : has_way_to_go(model_, state_, resolved)) {
-      way_ = SupportWay(masses_.of_nodes().size(), period_);
+    const double way = longest_way(model_, state_, resolved);
+    if (context.from ? context.from->carried.size() > 1 : way > 0) {
+      way_ = SupportWay(masses_.of_nodes().size(), period_, way, options.residual);
       contact_force_.resize(masses_.of_nodes().size());
       stage_.carried.insert(stage_.carried.end(), {&way_.lead(), &contact_force_});
     }
@@ -360,7 +361,7 @@ private:
       way_.take_off(nodes, first);
     relax(nodes);
     if (way_.acts())
-      way_.put_on(nodes, first, free, previous_force_.data() + first, sums);
+      way_.put_on(nodes, first, free, prescribed, previous_force_.data() + first, sums);
   }
 
   void begin_at_rest() {

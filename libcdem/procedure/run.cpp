@@ -333,7 +333,7 @@ private:
         clock_.steps() < std::numeric_limits<std::int64_t>::max() && !options_.holds_what_left;
     if (has_end)
       aim_supports(model_, state_, r, clock_.time_at(clock_.steps()) - clock_.time_at(stage_.step));
-    else if (has_way_to_go(model_, state_, r))
+    else if (longest_way(model_, state_, r) > 0)
       throw geom::InputError("displacement of fix: " + kind_ +
                              " has no set end at which the support could be there; move it by model:relax or "
                              "model:run before, or give velocity");

@@ -9,15 +9,21 @@
 namespace cdem {
 namespace {
 
-constexpr double balance = 0.005;     // residual
-constexpr double contact_jump = 0.05; // of the loads
-constexpr double rate = 1.0 / 40;     // per step
+constexpr double balance = 0.005; // residual
+constexpr double contact_jump = 0.05, least_of_loads = 0.01;
+constexpr double rate = 1.0 / 40; // per step
 constexpr double least_pace = 1e-9, first_pace = 1e-6, arrival_pace = 1e-4;
 constexpr double slowed_down = 0.125;
 constexpr double recent = 0.25; // part of the way
 constexpr double least_before = 1e-5, of_residual = 100, steps_before = 100;
 constexpr double most_learning = 0.25; // of the damping
 constexpr double patience = 40;        // slowest periods
+
+// Of the components for which of is 1, not 0.
+double squared_norm(const Node& v, const Node& of) {
+  const double x = of.x * v.x, y = of.y * v.y, z = of.z * v.z;
+  return x * x + y * y + z * z;
+}
 
 } // namespace
 
@@ -30,12 +36,19 @@ void SupportWay::choose_pace(double residual, double damping, const NodeSums& su
   growth_ = learning_ = 0;
   drawn_ = false;
   last_pace_ = pace_;
-  loads2_ = residual_reference2(sums);
   if (way_ >= 1) {
     pace_ = 0;
     return;
   }
   ++steps_;
+  const double loads2 = residual_reference2(sums);
+  double reference2 = loads2;
+  if (old > 0) {
+    reference2 = std::clamp(sums.led_reaction2, goal_ * goal_ * loads2, loads2);
+    residual = reference2 > 0 ? std::sqrt(sums.led_residual2 / reference2) : residual;
+  }
+  if (old >= 0)
+    reference2_ = std::max(reference2, least_of_loads * least_of_loads * loads2);
   if (old < 0) {
     pace_ = std::max(least_pace, -slowed_down * old);
     learned_from_ = way_ - steps_before * pace_;
@@ -63,7 +76,8 @@ double SupportWay::late() const {
 }
 
 bool SupportWay::see_contacts(double change2) {
-  if (last_pace_ > least_pace && pace_ > 0 && late() == 0 && change2 > contact_jump * contact_jump * loads2_)
+  if (last_pace_ > least_pace && pace_ > 0 && late() == 0 &&
+      change2 > contact_jump * contact_jump * reference2_)
     pace_ = -last_pace_;
   return takes_back();
 }
@@ -83,8 +97,8 @@ void SupportWay::take_off(const MovingNodes& nodes, std::int64_t first) const {
   }
 }
 
-void SupportWay::put_on(const MovingNodes& nodes, std::int64_t first, const Node& free, const Node* force,
-                        NodeSums& sums) {
+void SupportWay::put_on(const MovingNodes& nodes, std::int64_t first, const Node& free,
+                        const Node& prescribed, const Node* force, NodeSums& sums) {
   const auto add = [&](double is_free, double f, double load, double& lead, double& velocity,
                        double& displacement) {
     if (is_free == 0)
@@ -97,6 +111,8 @@ void SupportWay::put_on(const MovingNodes& nodes, std::int64_t first, const Node
     sums.external += load * mean;
     sums.fictitious += f * mean;
   };
+  const Node held{1 - free.x, 1 - free.y, 1 - free.z, 0};
+  const double fastest2 = length_ * pace_ * length_ * pace_;
   for (std::int64_t i = 0; i < nodes.count; ++i) {
     const Node load = nodes.external ? nodes.external[i] : Node{};
     const Node& f = force[i];
@@ -104,6 +120,10 @@ void SupportWay::put_on(const MovingNodes& nodes, std::int64_t first, const Node
     add(free.x, f.x, load.x, l.x, v.x, u.x);
     add(free.y, f.y, load.y, l.y, v.y, u.y);
     add(free.z, f.z, load.z, l.z, v.z, u.z);
+    if (fastest2 > 0) {
+      sums.led_residual2 += squared_norm(f, free) * std::min(1.0, squared_norm(v, {1, 1, 1, 0}) / fastest2);
+      sums.led_reaction2 += squared_norm(f, held) * (squared_norm(prescribed, held) / fastest2);
+    }
   }
 }
 
@@ -143,8 +163,8 @@ void SupportWay::step_back(const MovingNodes& nodes, std::int64_t first, const N
 }
 
 void SupportWay::add_to(std::vector<double>& loop_state) const {
-  loop_state.insert(loop_state.end(), {way_, pace_, learned_from_, last_pace_, loads2_, growth_, learning_,
-                                       steps_, drawn_ ? 1.0 : 0.0, acts_ ? 1.0 : 0.0});
+  loop_state.insert(loop_state.end(), {way_, pace_, learned_from_, last_pace_, reference2_, growth_,
+                                       learning_, length_, steps_, drawn_ ? 1.0 : 0.0, acts_ ? 1.0 : 0.0});
 }
 
 std::size_t SupportWay::take(const std::vector<double>& loop_state, std::size_t from) {
@@ -152,13 +172,14 @@ std::size_t SupportWay::take(const std::vector<double>& loop_state, std::size_t 
   pace_ = loop_state.at(from + 1);
   learned_from_ = loop_state.at(from + 2);
   last_pace_ = loop_state.at(from + 3);
-  loads2_ = loop_state.at(from + 4);
+  reference2_ = loop_state.at(from + 4);
   growth_ = loop_state.at(from + 5);
   learning_ = loop_state.at(from + 6);
-  steps_ = loop_state.at(from + 7);
-  drawn_ = loop_state.at(from + 8) != 0;
-  acts_ = loop_state.at(from + 9) != 0;
-  return from + 10;
+  length_ = loop_state.at(from + 7);
+  steps_ = loop_state.at(from + 8);
+  drawn_ = loop_state.at(from + 9) != 0;
+  acts_ = loop_state.at(from + 10) != 0;
+  return from + 11;
 }
 
 } // namespace cdem

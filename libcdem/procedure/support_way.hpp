@@ -2,12 +2,20 @@
 // it is one of static balance.
 //
 // The part s of the way that is done grows by the pace r in each step. The pace follows the residual R. It begins at 1e-6, once
-// R is at most 0.005, and then
+// the residual of the model is at most 0.005, and then
 //
 //   r+ = r exp((1 - R / 0.005) / 40) below that, r 0.005 / R above,   1e-6 <= r <= (1 - s) / 40 + 1e-4
 //
-// So supports wait where bonds break, and arrive softly. Where the forces of contacts change by more than 0.05 of the loads in a
-// step, the motion of the step before is taken back, no bond breaks, and the pace falls to an eighth, at least 1e-9: so contacts
+// So supports wait where bonds break, and arrive softly. What is out of balance counts where it moves, against the reactions of the
+// supports that move. With the velocities v of the step and that of the fastest support, V,
+//
+//   R^2 = sum |F|^2 min(1, |v|^2 / V^2) / sum |reaction|^2 |v|^2 / V^2
+//
+// over free components and over those of moved supports. So a small part is led by its own forces, whatever the rest of the
+// model weighs, and what comes to rest elsewhere delays no support. The lower sum is at least the square of goal times loads, since
+// less counts as balance, and at most that of the loads.
+//
+// Where the forces of contacts change by more than 0.05 of that reference, or of 0.01 of the loads if it is less, in a step, the motion of the step before is taken back, no bond breaks, and the pace falls to an eighth, at least 1e-9: so contacts
 // close softly. After 40 slowest periods T supports are drawn along the rest of their way in as many again.
 //
 // Free nodes are led: else drag and inertia would strain the neighbours of supports alone. The velocity of a node is that of
@@ -31,8 +39,9 @@ namespace cdem {
 class SupportWay {
 public:
   SupportWay() = default; // nothing is moved
-  // period: T, steps (stability.hpp).
-  SupportWay(std::size_t nodes, double period) : lead_(nodes), period_(period), way_(0) {}
+  // period: T, steps (stability.hpp); length: m, of the longest way; goal: of the residual.
+  SupportWay(std::size_t nodes, double period, double length, double goal)
+      : lead_(nodes), period_(period), length_(length), goal_(goal), way_(0) {}
 
   bool acts() const { return acts_; }                 // in the step to come
   bool takes_back() const { return pace_ < 0; }       // likewise
@@ -46,7 +55,7 @@ public:
 
   // Where nodes are led; else 0.
   double least_damping() const;
-  // residual, sums: of the step that has been made.
+  // residual, sums: of the model, in the step that has been made.
   void choose_pace(double residual, double damping, const NodeSums&);
   void end_step();
 
@@ -54,11 +63,12 @@ public:
   bool see_contacts(double change2);
 
   // Before the step of dynamic relaxation, for which the velocity is w, and after it. first: the number of the first node;
-  // free: 1 for the components that are not held; force: N, net, that acted in the step.
+  // free: 1 for the components that are not held; prescribed: of those that are; force: N, net, that acted in the step.
   void take_off(const MovingNodes& nodes, std::int64_t first) const;
-  void put_on(const MovingNodes& nodes, std::int64_t first, const Node& free, const Node* force, NodeSums&);
+  void put_on(const MovingNodes& nodes, std::int64_t first, const Node& free, const Node& prescribed,
+              const Node* force, NodeSums&);
 
-  // In place of a step of dynamic relaxation where the way takes back. prescribed: of the components that are held.
+  // In place of a step of dynamic relaxation where the way takes back.
   void step_back(const MovingNodes& nodes, std::int64_t first, const Node& free, const Node& prescribed,
                  Node* previous_force, NodeSums&);
 
@@ -70,11 +80,11 @@ private:
   double late() const; // part of the time in which supports are drawn along
 
   std::vector<Node> lead_;
-  double period_ = 0;
+  double period_ = 0, length_ = 0, goal_ = 0;
   double way_ = 1, pace_ = 0;        // s, r
   double learned_from_ = 0;          // s
   double last_pace_ = 0;             // of the step before
-  double loads2_ = 0;                // N2, residual_reference2
+  double reference2_ = 0;            // N2, for the forces of contacts
   double growth_ = 0, learning_ = 0; // r over that of the step before, b; 0: nodes are not led
   double steps_ = 0;                 // made
   bool acts_ = false, drawn_ = false;

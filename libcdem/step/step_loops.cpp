@@ -13,10 +13,10 @@
 namespace cdem {
 namespace {
 
-constexpr double NodeSums::*members[] = {&NodeSums::residual2, &NodeSums::applied2, &NodeSums::reaction2,
-                                         &NodeSums::stiffness, &NodeSums::inertia,  &NodeSums::kinetic,
-                                         &NodeSums::external,  &NodeSums::damping,  &NodeSums::radiated,
-                                         &NodeSums::fictitious};
+constexpr double NodeSums::*members[] = {
+    &NodeSums::residual2, &NodeSums::applied2,   &NodeSums::reaction2,     &NodeSums::stiffness,
+    &NodeSums::inertia,   &NodeSums::kinetic,    &NodeSums::external,      &NodeSums::damping,
+    &NodeSums::radiated,  &NodeSums::fictitious, &NodeSums::led_residual2, &NodeSums::led_reaction2};
 constexpr std::size_t n_members = std::size(members);
 static_assert(n_members * sizeof(double) == sizeof(NodeSums), "all of them are summed");
 
