@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t format = 32;
+constexpr std::uint32_t format = 33;
 constexpr std::size_t head_size = 16 + sizeof(std::uint32_t) + sizeof(std::uint64_t),
                       checksum_size = sizeof(std::uint64_t);
 

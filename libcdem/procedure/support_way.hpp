@@ -15,8 +15,9 @@
 // model weighs, and what comes to rest elsewhere delays no support. The lower sum is at least the square of goal times loads, since
 // less counts as balance, and at most that of the loads.
 //
-// Where the forces of contacts change by more than 0.05 of that reference, or of 0.01 of the loads if it is less, in a step, the motion of the step before is taken back, no bond breaks, and the pace falls to an eighth, at least 1e-9: so contacts
-// close softly. After 40 slowest periods T supports are drawn along the rest of their way in as many again.
+// Where the forces of contacts change by more than 0.05 of that reference, or of 0.01 of the loads if it is less, in a step, the
+// motion of the step before is taken back, no bond breaks, and the pace falls to an eighth, at least 1e-9: so contacts close softly.
+// After 40 slowest periods T supports are drawn along the rest of their way in as many again.
 //
 // Free nodes are led: else drag and inertia would strain the neighbours of supports alone. The velocity of a node is that of
 // dynamic relaxation, w, and the lead r l. The displacement l per way is learned from what w adds to it:
