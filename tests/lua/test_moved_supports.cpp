@@ -67,3 +67,36 @@ model:run{ steps = 77 }
                     hash("model:run{ steps = 11 } model:run{ steps = 19 }") + "end\nassert(one() == two())")
             .empty());
 }
+
+TEST_CASE("a bar holds its strength in one increment, whatever heavy block stands beside it",
+          "[lua][relax]") {
+  const double heavy = GENERATE(0.0, 5.0, 20.0), part = GENERATE(0.98, 1.02); // m; of the strength
+  CAPTURE(heavy, part);
+  const auto warnings =
+      warnings_of("local heavy, part = " + std::to_string(heavy) + ", " + std::to_string(part) + R"(
+local cdem = require "cdem"
+local E, T, L, k = 1e10, 1e6, 2, 1e13
+local rock = cdem.elastic{ youngs_modulus = E, poissons_ratio = 0, density = 2500 }
+local bodies = { { name = "bar", shape = cdem.grid{ size = {L, 0.1, 0.1}, divisions = {20, 1, 1} }, material = rock,
+  joint = cdem.mohr_coulomb{ tensile_strength = T, cohesion = 1e9, friction_angle = 0, normal_stiffness = k, shear_stiffness = k } } }
+if heavy > 0 then
+  bodies[2] = { name = "block", shape = cdem.grid{ size = {heavy, heavy, heavy}, divisions = {2, 2, 2}, origin = {0, 1, 0} },
+    material = rock, joint = cdem.mohr_coulomb{ tensile_strength = 1e12, cohesion = 1e12, friction_angle = 0 } }
+end
+local model = cdem.model{ bodies = bodies, contacts = { default = cdem.coulomb{ friction_angle = 30 } } }
+local function of_bar(condition) return cdem.select.where(function(x, y) return y < 0.5 and condition(x) end) end
+model:fix{ on = of_bar(function(x) return x < 1e-6 end) }
+model:fix{ on = of_bar(function() return true end), axes = "z" }
+if heavy > 0 then
+  model:fix{ on = cdem.select.where(function(_, y, z) return y > 0.5 and z < 1e-6 end) }
+  model:gravity{ vector = {0, 0, -9.81} }
+  model:relax{ residual = 1e-4 }
+end
+model:fix{ on = of_bar(function(x) return x > L - 1e-6 end), axes = "x",
+           displacement = { part * T * (1 / E + 20 / L / k) * L, 0, 0 } }
+assert(model:relax{ residual = 1e-4 }.converged)
+assert((#model:breaks() > 0) == (part > 1))
+)");
+  INFO((warnings.empty() ? "" : warnings.front()));
+  CHECK(warnings.size() <= 1);
+}
