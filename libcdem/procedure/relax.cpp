@@ -26,7 +26,7 @@ constexpr double smoothing = 0.05;
 constexpr double most_damping = 1.8;
 // Without loads the residual is measured against the reactions. Moved supports that have torn their part off, and a free
 // body that springs back from its initial stress, leave none: then against this fraction of the largest reaction of the
-// stage or of the forces of the initial stress (squared norms).
+// stage or of the forces of the initial stress (squared norms). So is the pace of moved supports.
 constexpr double reaction_floor2 = 1e-4;
 // Forces that move nodes by this part of the model's length in a step are of rounding, and no reactions either.
 constexpr double rounding = 1e-13;
@@ -250,6 +250,7 @@ public:
                                 lambda_,
                                 damping_,
                                 largest_reaction2_,
+                                largest_led_reaction2_,
                                 kept_kinetic_,
                                 forces_known_ ? 1.0 : 0.0,
                                 slow_.frequency2().value_or(-1),
@@ -295,9 +296,11 @@ public:
   }
 
   void end_step() override {
-    double& reaction2 = stage_.report.sums.reaction2;
-    largest_reaction2_ = std::max(largest_reaction2_, reaction2);
-    reaction2 = std::max({reaction2, reaction_floor2 * largest_reaction2_, rounding2_});
+    NodeSums& sums = stage_.report.sums;
+    largest_reaction2_ = std::max(largest_reaction2_, sums.reaction2);
+    sums.reaction2 = std::max({sums.reaction2, reaction_floor2 * largest_reaction2_, rounding2_});
+    largest_led_reaction2_ = std::max(largest_led_reaction2_, sums.led_reaction2);
+    sums.led_reaction2 = std::max(sums.led_reaction2, reaction_floor2 * largest_led_reaction2_);
     way_.end_step();
   }
 
@@ -415,12 +418,13 @@ private:
     lambda_ = numbers.at(2);
     damping_ = numbers.at(3);
     largest_reaction2_ = numbers.at(4);
-    stage_.report.sums.kinetic = numbers.at(5);
-    forces_known_ = numbers.at(6) != 0;
-    slow_.take(numbers.at(7));
-    has_settled_ = numbers.at(8) != 0;
-    broken_while_drawn_ = static_cast<std::int64_t>(numbers.at(9));
-    const std::size_t after_way = way_.take(numbers, masses_.take(numbers, settled_.take(numbers, 10)));
+    largest_led_reaction2_ = numbers.at(5);
+    stage_.report.sums.kinetic = numbers.at(6);
+    forces_known_ = numbers.at(7) != 0;
+    slow_.take(numbers.at(8));
+    has_settled_ = numbers.at(9) != 0;
+    broken_while_drawn_ = static_cast<std::int64_t>(numbers.at(10));
+    const std::size_t after_way = way_.take(numbers, masses_.take(numbers, settled_.take(numbers, 11)));
     if (forces_known_ && way_.stands())
       slow_.start(state_, previous_force_);
     stability_.take(numbers, after_way);
@@ -445,8 +449,9 @@ private:
   std::int64_t broken_while_drawn_ = 0; // bonds
   bool has_settled_ = false;            // as a whole, though a piece may not be in balance
   bool forces_known_ = false;           // of the step before
-  double lambda_ = 0, damping_ = 0, largest_reaction2_ = 0;
-  double kept_kinetic_ = 0; // J, of the state that was kept last
+  double lambda_ = 0, damping_ = 0;
+  double largest_reaction2_ = 0, largest_led_reaction2_ = 0; // N2, of the stage
+  double kept_kinetic_ = 0;                                  // J, of the state that was kept last
 };
 
 } // namespace

@@ -13,7 +13,8 @@
 //
 // over free components and over those of moved supports. So a small part is led by its own forces, whatever the rest of the
 // model weighs, and what comes to rest elsewhere delays no support. The lower sum is at least the square of goal times loads, since
-// less counts as balance, and at most that of the loads.
+// less counts as balance, and at most that of the loads. Supports that have torn their part off leave no reactions: then it is at
+// least 1e-4 of the largest that it was (relax.cpp).
 //
 // Where the forces of contacts change by more than 0.05 of that reference, or of 0.01 of the loads if it is less, in a step, the
 // motion of the step before is taken back, no bond breaks, and the pace falls to an eighth, at least 1e-9: so contacts close softly.
