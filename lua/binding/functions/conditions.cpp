@@ -38,8 +38,10 @@ const Record<Fix> fix_record{
     {{on()},
      {axes()},
      {vec3("displacement", "m")
-          .doc("total value to be held. A relaxation moves there through states of balance; a run moves "
-               "there at a steady velocity and arrives at its end (one that `stop` ends earlier does not)"),
+          .doc("total value to be held. A relaxation moves there through states of balance (move thin "
+               "parts beside thick ones in a relaxation of their own, else they may break early); a run "
+               "moves there at a steady velocity and arrives at its end (one that `stop` ends earlier does "
+               "not)"),
       &Fix::displacement},
      {vec3("velocity", "m/s").doc("in real-time stepping; zero when left out, and in a relaxation"),
       &Fix::velocity},
