@@ -26,7 +26,7 @@ void require_same_on_all_ranks(std::uint64_t model) {
       throw geom::InputError(
           "rank " + std::to_string(rank) +
           " has built another model than rank 0; a script must do the same on all ranks: "
-          "look for what it takes from the clock, from addresses or from files that change");
+          "look for what it takes from the clock, the order of pairs() or files that change");
 }
 
 } // namespace

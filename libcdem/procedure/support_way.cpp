@@ -19,9 +19,9 @@ constexpr double least_before = 1e-5, of_residual = 100, steps_before = 100;
 constexpr double most_learning = 0.25; // of the damping
 constexpr double patience = 40;        // slowest periods
 
-// Of the components for which of is 1, not 0.
-double squared_norm(const Node& v, const Node& of) {
-  const double x = of.x * v.x, y = of.y * v.y, z = of.z * v.z;
+// counted: 1 for the components that count, 0 for the others.
+double squared_norm(const Node& v, const Node& counted) {
+  const double x = counted.x * v.x, y = counted.y * v.y, z = counted.z * v.z;
   return x * x + y * y + z * z;
 }
 

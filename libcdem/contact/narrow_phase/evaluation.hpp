@@ -81,7 +81,7 @@ private:
   // On which face a semi-spring presses whose nearest place on the surface of a block is `found`: on a flat one that its own face
   // lies on, however near the next face is; on none where a face beside its own lies on the found one, and stands for it.
   std::optional<Nearest> pressed_by(int source, const geom::Vec3& spring, const Nearest& found);
-  // Of a crossing; sets end_moment.
+  // How a crossing stands to the ends of its two edges; sets end_moment.
   OnFace near_end(int source, int target, const NearestOfEdges&, const EdgeTouch&, ContactMotion&) const;
   // Sets stiffness and area of a contact. old: the same one before the step, null where there was none; of: m2, without
   // another face; on: m2, for which it should stand on a flat face, 0: on another, or as it does.
